@@ -41,7 +41,7 @@ void AsShown::turn(Image& image) const {
 void AsShown::turn(pipeline::FrameResult& result) const {
     turn(result.color);
     turn(result.depth);
-    for (pipeline::KeptLayer& layer : result.layers) {
+    for (pipeline::PeeledLayer& layer : result.layers) {
         if (turns_rows_) exchange_rows(layer.color.codes, layer.color.height);
         turn(layer.depth);
     }

@@ -179,7 +179,7 @@ struct Renderer::State {
         f.formulation = options.formulation;
         f.effects = options.effects;
         f.replay = replay(algorithm, !f.depth_compare().is_plain());
-        f.alike_where_blank = true;  // no program here reads x or y
+        f.blank_tiles_are_equal = true;  // no program here reads x or y
         f.keep_layers = options.keep_layers;
         const AuditMemory memory{audit_memory(),
                                  execution(algorithm, {}) == Execution::literal ? 1 : thread_count(options.threads)};
@@ -258,11 +258,13 @@ struct Renderer::State {
             body_of(algorithm, {options.algorithm, eye_distance(lists.settings().view, lists.settings().raster)});
         std::optional<Audit> audit;
         if (options.audit && traces == nullptr) audit.emplace(f, body, algorithm, audit_memory(), options.threads);
-        const Watch watch = traces != nullptr ? keep_traces(*traces) : audit ? audit->watch() : Watch{};
+        const RegionCallbacks callbacks = traces != nullptr ? keep_traces(*traces)
+                                          : audit           ? audit->callbacks()
+                                                            : RegionCallbacks{};
         {
             const Stopwatch stopwatch{result.seconds.passes};
             result.frame =
-                run(f, body, execution(algorithm, instruments), options.threads, progress, instruments, watch);
+                run(f, body, execution(algorithm, instruments), options.threads, progress, instruments, callbacks);
         }
         note_path(algorithm, instruments, result.frame.work);
         result.seconds.audit = result.frame.watched * result.seconds.passes;

@@ -84,10 +84,10 @@ class SampleSum {
     [[nodiscard]] ColorResolve new_resolve() const { return {samples_, profile_.resolve, profile_.color_rounding()}; }
 
     // Adds layer k of a sample, counted from one end, to layer k of the frame from the same end.
-    void add_layers(const std::vector<KeptLayer>& layers) {
+    void add_layers(const std::vector<PeeledLayer>& layers) {
         for (const Side side : {Side::none, Side::front, Side::back}) {
             auto next = layers_.begin();
-            for (const KeptLayer& layer : layers) {
+            for (const PeeledLayer& layer : layers) {
                 if (layer.side != side) continue;
                 next = std::find_if(next, layers_.end(), [&](const Layer& l) { return l.side == side; });
                 if (next == layers_.end()) next = layers_.insert(next, {new_resolve(), {}, side});

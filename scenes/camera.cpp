@@ -123,7 +123,7 @@ pipeline::View orbit_view(const Bounds& bounds, double azimuth_degrees, double e
     return look_at(orbit_camera(bounds, azimuth_degrees, elevation_degrees), aspect);
 }
 
-pipeline::View as_seen_under(const pipeline::View& view, const ClipConvention& from, const ClipConvention& to) {
+pipeline::View with_clip_convention(const pipeline::View& view, const ClipConvention& from, const ClipConvention& to) {
     using rasterizer::ClipDepth;
     const FloatEnvironment environment;
     pipeline::View seen = view;

@@ -2,7 +2,7 @@
 // scene.
 //
 // Rule     gluLookAt and gluPerspective in binary64 with sin and cos of scenes/numbers/elementary.h; matrices
-//          column-major, clip depth -1 to 1 unless as_seen_under converts it.
+//          column-major, clip depth -1 to 1 unless with_clip_convention converts it.
 // Source   scenes/reference/scenes.md 7; GLU 1.3 sections 4.1 and 4.2; glTF 2.0 section 3.10.3 (also infinite far).
 // Tests    tests/scenes/camera_test.cpp against wide arithmetic, camera_file_test.cpp
 #pragma once
@@ -37,8 +37,8 @@ struct ClipConvention {
 };
 // The same volume under another convention: z and w are the third and fourth rows of the projection, in binary64. To 0
 // to 1: z' = (z + w) / 2; from it: z' = 2 z - w; near exchanged with far: z' = w - z, or -z where z runs from -w.
-[[nodiscard]] pipeline::View as_seen_under(const pipeline::View& view, const ClipConvention& from,
-                                           const ClipConvention& to);
+[[nodiscard]] pipeline::View with_clip_convention(const pipeline::View& view, const ClipConvention& from,
+                                                  const ClipConvention& to);
 
 // The camera's own aspect if it has one, else the image's.
 [[nodiscard]] pipeline::View camera_view(const SceneCamera& camera, double image_aspect);

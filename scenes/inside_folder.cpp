@@ -15,7 +15,7 @@ bool leaves_by_name(const fs::path& name) {
 }
 
 InsideFolder inside_folder(const fs::path& folder, const fs::path& name) {
-    using enum InsideFolder::Found;
+    using enum InsideFolder::PathStatus;
     if (leaves_by_name(name)) return {name_leaves};
     // Both paths are canonical, with links resolved, so that a link out of the folder is detected.
     std::error_code error;
@@ -27,15 +27,15 @@ InsideFolder inside_folder(const fs::path& folder, const fs::path& name) {
 }
 
 std::string path_inside(const std::string& folder, const std::string& name, const std::string& file,
-                        const std::string& place) {
-    using enum InsideFolder::Found;
+                        const std::string& location) {
+    using enum InsideFolder::PathStatus;
     const InsideFolder found = inside_folder(folder, name);
     const std::string expected = "a file in the folder " + (folder.empty() ? "." : folder);
-    switch (found.found) {
+    switch (found.status) {
         case inside: return (fs::path{folder} / name).string();
-        case nothing: throw InputError(file, place, expected, "'" + name + "', which is not there");
-        case name_leaves: throw InputError(file, place, expected, "'" + name + "', which leaves it");
-        case link_leaves: throw InputError(file, place, expected, "'" + name + "', a link that leaves it");
+        case nothing: throw InputError(file, location, expected, "'" + name + "', which is not there");
+        case name_leaves: throw InputError(file, location, expected, "'" + name + "', which leaves it");
+        case link_leaves: throw InputError(file, location, expected, "'" + name + "', a link that leaves it");
     }
     return "";  // unreachable: the enum is closed
 }

@@ -12,8 +12,8 @@
 namespace strata::scenes {
 
 struct InsideFolder {
-    enum class Found : std::uint8_t { inside, nothing, name_leaves, link_leaves };
-    Found found = Found::nothing;
+    enum class PathStatus : std::uint8_t { inside, nothing, name_leaves, link_leaves };
+    PathStatus status = PathStatus::nothing;
     std::filesystem::path path{};  // canonical; empty if the file is not inside
 };
 
@@ -26,6 +26,6 @@ struct InsideFolder {
 
 // The same, but throws InputError{file, place} with one message per fault.
 [[nodiscard]] std::string path_inside(const std::string& folder, const std::string& name, const std::string& file,
-                                      const std::string& place);
+                                      const std::string& location);
 
 }  // namespace strata::scenes

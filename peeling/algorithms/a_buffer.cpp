@@ -31,7 +31,7 @@ void resolve(Region& region, const FragmentLists& fragment_lists, Target result)
                                              static_cast<float>(color[2]), static_cast<float>(color[3])});
         if (!region.frame().trace) continue;
         for (const std::uint64_t entry : order) {
-            const KeyedFragment& f = fragments[place_of(entry)];
+            const KeyedFragment& f = fragments[submission_index(entry)];
             region.trace({pixel, f.key, f.primitive, Side::front, true});
         }
     }

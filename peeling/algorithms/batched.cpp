@@ -80,7 +80,7 @@ struct LayerTargets {
 };
 
 // front_to_back's peel over the interval's objects, with one more discard: codes outside [low, high).
-Drawn peel(Region& region, const Interval& interval, const LayerTargets& t, bool first) {
+DrawCounts peel(Region& region, const Interval& interval, const LayerTargets& t, bool first) {
     region.clear(t.layer, {.color = {0, 0, 0, 0}});
     region.copy(region.opaque_depth(), t.nearest);
     PassState state;
@@ -90,13 +90,13 @@ Drawn peel(Region& region, const Interval& interval, const LayerTargets& t, bool
     state.reads[0] = t.peeled;
     state.needs = code_with_color;
     state.primitives = interval.objects;
-    state.selection = {.keeps = Keeps::nearest, .least = interval.low, .most = interval.high - 1};
+    state.selection = {.keeps = KeptFragments::nearest, .least = interval.low, .most = interval.high - 1};
     if (!first) state.selection.near = KeyBound::beyond(t.peeled);
-    return region.draw(state, [&, first](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    return region.draw(state, [&, first](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         premultiply(in.color, out.color[0], lanes(in));
         for (std::size_t i = 0; i < lanes(in); ++i)
             out.alive[i] &= mask(in.code[i] >= interval.low) & mask(in.code[i] < interval.high);
-        if (!first) keep_behind(in, own.depth(0), out);
+        if (!first) keep_behind(in, loads.depth(0), out);
     });
 }
 
@@ -113,7 +113,7 @@ void run(Region& region) {
         region.begin_loop();
         for (bool first = true; !region.limit_reached(); first = false) {
             region.begin_iteration();
-            const Drawn drawn = peel(region, interval, t, first);
+            const DrawCounts drawn = peel(region, interval, t, first);
             composite_layer(region, t.layer, t.nearest, t.accumulated);
             if (!region.any(drawn.passed, Idle::yes)) break;
             std::swap(t.peeled, t.nearest);

@@ -29,7 +29,7 @@ Blend shift(bool published) {
     return {.enabled = true, .color = published ? as_printed : resolved, .alpha = {BlendEquation::add, one, zero}};
 }
 
-Drawn find_nearest(CoherentPeel& peel) {
+DrawCounts find_nearest(CoherentPeel& peel) {
     Region& region = peel.region;
     region.clear(peel.nearest, {.depth = 1.0f});
     if (!peel.shifted.exists()) peel.shifted = region.make(Format::rgba32f);
@@ -39,10 +39,10 @@ Drawn find_nearest(CoherentPeel& peel) {
     state.color[0] = peel.shifted;
     state.blend[0] = shift(peel.published);
     state.reads = {peel.reached, region.opaque_depth()};
-    state.selection = selects_what_is_left(peel);
+    state.selection = select_remaining(peel);
     const DepthFormat format = region.frame().key_request().format;
-    return region.draw(state, [&, format](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        keep_what_is_left(peel, in, own, out);
+    return region.draw(state, [&, format](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        keep_remaining(peel, in, loads, out);
         for (std::size_t c = 0; c < 3; ++c) std::fill_n(out.color[0][c].begin(), lanes(in), 1.0f);
         for (std::size_t i = 0; i < lanes(in); ++i) out.color[0][3][i] = depth_as_float(in.code[i], format);
     });
@@ -53,10 +53,11 @@ void find_previous(CoherentPeel& peel) {
     PassState state = find_state(peel.previous, CompareFunc::always);
     state.reads[0] = peel.shifted;
     const DepthFormat format = peel.region.frame().key_request().format;
-    static_cast<void>(peel.region.full_screen(state, [format](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        out.replaces_depth = true;
-        for (std::size_t i = 0; i < lanes(in); ++i) out.depth[i] = depth_as_code(own.color(0)[0][i], format);
-    }));
+    static_cast<void>(
+        peel.region.full_screen(state, [format](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+            out.replaces_depth = true;
+            for (std::size_t i = 0; i < lanes(in); ++i) out.depth[i] = depth_as_code(loads.color(0)[0][i], format);
+        }));
 }
 
 }  // namespace

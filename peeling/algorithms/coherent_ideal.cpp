@@ -41,7 +41,7 @@ class IdealPeel {
             region_.begin_iteration();
             if (has_run) composite_run();
             start_iteration();
-            const Drawn found = find_run();
+            const DrawCounts found = find_run();
             has_run = true;
             if (!(more = region_.any(found.tallied, idle()))) break;
         }
@@ -64,9 +64,9 @@ class IdealPeel {
         state.color = {registers_, peel_};
         state.reads = {registers_, region_.opaque_depth()};
         state.ordered_rmw = true;
-        static_cast<void>(region_.full_screen(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        static_cast<void>(region_.full_screen(state, [this](const FragmentBatch& in, const Loads& loads, Outputs& out) {
             for (std::size_t i = 0; i < lanes(in); ++i) {
-                const float opaque = as_float(own.depth(1)[i]), end = own.color(0)[z3][i];
+                const float opaque = as_float(loads.depth(1)[i]), end = loads.color(0)[z3][i];
                 out.color[0][z1][i] = out.color[0][z2][i] = opaque;
                 out.color[0][z3][i] =
                     published_ ? end : opaque;  // as published z3 is not reset: finished pixels start again (E25)
@@ -90,24 +90,24 @@ class IdealPeel {
 
     // Pass 1 composites the fragments at `peel`, the end of the previous run, and updates the registers with every
     // fragment between `peel` and z2. Its tally, the number of register changes, is the query.
-    Drawn find_run() {
+    DrawCounts find_run() {
         PassState state = composite_state(accumulated_);
         state.color[1] = registers_;
         state.reads = {registers_, peel_, region_.opaque_depth()};
         state.ordered_rmw = true;
-        state.selection = {.keeps = Keeps::interval,
+        state.selection = {.keeps = KeptFragments::interval,
                            .outside = Outside::writes_alike,
                            .near = {peel_, true, 0},
                            .far = {KeyBound{region_.opaque_depth(), published_}}};  // published: inclusive
         ties_.start();
-        return region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        return region_.draw(state, [this](const FragmentBatch& in, const Loads& loads, Outputs& out) {
             composite_under(in, out);
             for (std::size_t i = 0; i < lanes(in); ++i) {
                 std::array<float, 4> r{};
-                for (std::size_t c = 0; c < 4; ++c) r[c] = own.color(0)[c][i];
-                const float z = as_float(in.code[i]), peel = own.color(1)[0][i];
+                for (std::size_t c = 0; c < 4; ++c) r[c] = loads.color(0)[c][i];
+                const float z = as_float(in.code[i]), peel = loads.color(1)[0][i];
                 const bool is_in_range = out.alive[i] != 0 && peel < z && z < r[z2];
-                const bool ends_run = z == peel && (published_ || z < as_float(own.depth(2)[i]));
+                const bool ends_run = z == peel && (published_ || z < as_float(loads.depth(2)[i]));
                 if (is_in_range) arrive(r, z);
                 if (is_in_range) ++out.tally;
                 for (std::size_t c = 0; c < 4; ++c) out.color[1][c][i] = r[c];
@@ -131,11 +131,11 @@ class IdealPeel {
         PassState state = composite_state(accumulated_);
         state.reads = {registers_, peel_};
         state.selection = {
-            .keeps = Keeps::interval, .near = {peel_, false, 0}, .far = {KeyBound{registers_, false, z3}}};
-        static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            .keeps = KeptFragments::interval, .near = {peel_, false, 0}, .far = {KeyBound{registers_, false, z3}}};
+        static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& loads, Outputs& out) {
             for (std::size_t i = 0; i < lanes(in); ++i) {
                 const float z = as_float(in.code[i]);
-                out.alive[i] &= mask(own.color(1)[0][i] < z && z < own.color(0)[z3][i]);
+                out.alive[i] &= mask(loads.color(1)[0][i] < z && z < loads.color(0)[z3][i]);
             }
             composite_under(in, out);
         }));

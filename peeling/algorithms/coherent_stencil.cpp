@@ -20,18 +20,18 @@ PassState find_in_what_is_left(const CoherentPeel& peel, Target target, const St
     state.stencil = {.enabled = true, .front = face, .back = {}};
     state.stencil_target = peel.stencil;
     state.reads = {peel.reached, peel.region.opaque_depth()};
-    state.selection = selects_what_is_left(peel);
+    state.selection = select_remaining(peel);
     return state;
 }
 
 // Pass 1 finds the nearest fragment; the stencil counts the updates of the depth, including the last.
-Drawn find_nearest(CoherentPeel& peel) {
+DrawCounts find_nearest(CoherentPeel& peel) {
     peel.region.clear(peel.nearest, {.depth = 1.0f});
     peel.region.clear(peel.stencil, {.stencil = 0});
     const StencilFace face{.func = CompareFunc::always, .ref = 0, .pass = StencilOp::incr};
     return peel.region.draw(
         find_in_what_is_left(peel, peel.nearest, face),
-        [&](const FragmentBatch& in, const Loads& own, Outputs& out) { keep_what_is_left(peel, in, own, out); });
+        [&](const FragmentBatch& in, const Loads& loads, Outputs& out) { keep_remaining(peel, in, loads, out); });
 }
 
 // Pass 2 makes the same updates again and counts the stencil down to 1, so it stops one update before the nearest
@@ -41,7 +41,7 @@ void find_previous(CoherentPeel& peel) {
     const StencilFace face{.func = CompareFunc::less, .ref = 1, .pass = StencilOp::decr};
     static_cast<void>(peel.region.draw(
         find_in_what_is_left(peel, peel.previous, face),
-        [&](const FragmentBatch& in, const Loads& own, Outputs& out) { keep_what_is_left(peel, in, own, out); }));
+        [&](const FragmentBatch& in, const Loads& loads, Outputs& out) { keep_remaining(peel, in, loads, out); }));
 }
 
 }  // namespace

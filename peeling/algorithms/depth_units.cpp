@@ -17,7 +17,7 @@ namespace {
 
 // Draws the nearest fragment behind `peeled`. Comparisons other than of stored codes run in the fragment program,
 // before the depth units.
-Drawn peel(Region& region, Target peeled, Target nearest, Target layer, bool first) {
+DrawCounts peel(Region& region, Target peeled, Target nearest, Target layer, bool first) {
     const DepthCompare compare = region.frame().unit_compare();
     const bool in_program = !first && !compare.is_plain();
     PassState state;
@@ -31,9 +31,9 @@ Drawn peel(Region& region, Target peeled, Target nearest, Target layer, bool fir
     state.needs.reference = in_program;
     state.selection = nearest_behind(compare, first ? Target{} : peeled);
     const PreparedDraw& list = first ? *region.frame().transparent : region.frame().second_list();
-    return region.draw(state, list, [in_program, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    return region.draw(state, list, [in_program, compare](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         out.color[0] = in.color;
-        if (in_program) discard_peeled(compare, in, own.depth(0), out);
+        if (in_program) discard_peeled(compare, in, loads.depth(0), out);
     });
 }
 
@@ -50,7 +50,7 @@ void run(Region& region) {
         region.set_name(nearest, "nearest");
         region.clear(layer, {.color = {0, 0, 0, 0}});
         region.copy(region.opaque_depth(), nearest);
-        const Drawn drawn = peel(region, peeled, nearest, layer, layers.color.empty());
+        const DrawCounts drawn = peel(region, peeled, nearest, layer, layers.color.empty());
         layers.color.push_back(layer);
         layers.depth.push_back(nearest);
         peeled = nearest;

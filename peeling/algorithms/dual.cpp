@@ -32,7 +32,7 @@ struct DualTargets {
 
 // Nothing is discarded: RT1 is cleared every pass, and its content survives because every fragment writes the old value
 // under MAX (E13).
-Drawn peel(Region& region, const DualTargets& t) {
+DrawCounts peel(Region& region, const DualTargets& t) {
     region.clear(t.next_min_max, empty_min_max);
     region.clear(t.next_front, {.color = {0, 0, 0, 0}});
     region.clear(t.back_dump, {.color = {0, 0, 0, 0}});
@@ -45,26 +45,26 @@ Drawn peel(Region& region, const DualTargets& t) {
     state.needs.reference = !compare.is_plain();
     state.selection = ends_between(compare, t.min_max, region.opaque_depth(), Outside::writes_alike);
     return region.draw(state, region.frame().second_list(),
-                       [compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
+                       [compare](const FragmentBatch& in, const Loads& loads, Outputs& out) {
                            PeelLanes side;
-                           classify(compare, in, own.color(0), own.depth(2), side);
+                           classify(compare, in, loads.color(0), loads.depth(2), side);
                            write_min_max(in, side.is_between, out.color[0]);
-                           write_layers(in, own.color(1), side, out.color[1], out.color[2]);
+                           write_layers(in, loads.color(1), side, out.color[1], out.color[2]);
                        });
 }
 
 // Blends the peeled back layer OVER; counts the pixels that have layers left to peel.
-Drawn blend_back(Region& region, const DualTargets& t) {
+DrawCounts blend_back(Region& region, const DualTargets& t) {
     PassState state;
     state.color[0] = t.back;
     state.blend[0] = over_background(region.frame());
     state.reads = {t.back_dump, t.next_min_max, t.min_max};
-    return region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        out.color[0] = own.color(0);
+    return region.full_screen(state, [](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        out.color[0] = loads.color(0);
         std::uint32_t left = 0;
         for (std::size_t i = 0; i < lanes(in); ++i) {
-            out.alive[i] = own.color(0)[3][i] != 0.0f ? ~0u : 0u;
-            left += own.color(1)[0][i] != -1.0f || own.color(1)[1][i] != -1.0f ? 1 : 0;
+            out.alive[i] = loads.color(0)[3][i] != 0.0f ? ~0u : 0u;
+            left += loads.color(1)[0][i] != -1.0f || loads.color(1)[1][i] != -1.0f ? 1 : 0;
         }
         out.tally += left;
     });
@@ -73,9 +73,9 @@ Drawn blend_back(Region& region, const DualTargets& t) {
 // Records the depths that this pass composited at each end, for the audit. Not a pass of the emulated device.
 void trace_peel(Region& region, const DualTargets& t) {
     for (const Side side : {Side::front, Side::back})
-        region.trace_pixels(t.min_max, [side](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        region.trace_pixels(t.min_max, [side](const FragmentBatch& in, const Loads& loads, Outputs& out) {
             for (std::size_t i = 0; i < lanes(in); ++i) {
-                const float near = -own.color(0)[0][i], far = own.color(0)[1][i];
+                const float near = -loads.color(0)[0][i], far = loads.color(0)[1][i];
                 const bool has = side == Side::front ? near <= far : near < far;
                 out.side[i] = has ? side : Side::none;
                 out.key[i] = ordered_code(side == Side::front ? near : far);
@@ -92,14 +92,14 @@ Target draw_tail(Region& region, const ListingInputs& inputs, const DualTargets&
     const DepthCompare compare = region.frame().depth_compare();
     state.needs.code = false;
     state.needs.reference = !compare.is_plain();
-    static_cast<void>(
-        region.draw(state, region.frame().second_list(), [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
-            tail.write(in, out);
-            PeelLanes side;
-            classify(compare, in, own.color(0), own.depth(1), side);
-            for (std::size_t i = 0; i < lanes(in); ++i)
-                out.alive[i] &= side.is_near[i] | side.is_between[i] | side.is_far[i];
-        }));
+    static_cast<void>(region.draw(state, region.frame().second_list(),
+                                  [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+                                      tail.write(in, out);
+                                      PeelLanes side;
+                                      classify(compare, in, loads.color(0), loads.depth(1), side);
+                                      for (std::size_t i = 0; i < lanes(in); ++i)
+                                          out.alive[i] &= side.is_near[i] | side.is_between[i] | side.is_far[i];
+                                  }));
     return tail.resolve();
 }
 
@@ -125,7 +125,7 @@ void run(Region& region, const ListingInputs& inputs) {
     while (!region.limit_reached()) {
         region.begin_iteration();
         static_cast<void>(peel(region, t));
-        const Drawn blended = blend_back(region, t);
+        const DrawCounts blended = blend_back(region, t);
         trace_peel(region, t);
         layers.keep(t.min_max);
         std::swap(t.min_max, t.next_min_max);

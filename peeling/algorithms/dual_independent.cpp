@@ -27,7 +27,7 @@ void choose(const Lanes<std::uint32_t>& chosen, ColorLanes& colors, std::size_t 
 
 // Fragments outside the range are discarded. The others write all three targets, with a neutral value where they are
 // neither nearest nor farthest.
-Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Target back) {
+DrawCounts peel(Region& region, Target min_max, Target next_min_max, Target front, Target back) {
     region.clear(next_min_max, empty_min_max);
     PassState state;
     state.color = {next_min_max, front, back};
@@ -39,9 +39,9 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
     state.selection = ends_between(compare, min_max, region.opaque_depth(), Outside::dies);
     const bool is_traced = region.frame().trace;
     return region.draw(state, region.frame().second_list(),
-                       [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
+                       [=](const FragmentBatch& in, const Loads& loads, Outputs& out) {
                            PeelLanes side;
-                           classify(compare, in, own.color(0), own.depth(1), side);
+                           classify(compare, in, loads.color(0), loads.depth(1), side);
                            write_min_max(in, side.is_between, out.color[0]);
                            premultiply(in.color, out.color[1], lanes(in));
                            choose(side.is_near, out.color[1], lanes(in));
@@ -73,7 +73,7 @@ void run(Region& region) {
     initialize(region, min_max);
     while (!region.limit_reached()) {
         region.begin_iteration();
-        const Drawn drawn = peel(region, min_max, next_min_max, front, back);
+        const DrawCounts drawn = peel(region, min_max, next_min_max, front, back);
         layers.keep(min_max);
         std::swap(min_max, next_min_max);
         if (!region.any(drawn.passed, Idle::yes)) break;

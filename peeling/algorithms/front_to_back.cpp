@@ -20,7 +20,7 @@ namespace {
 
 // Draws the nearest fragment behind `peeled`. The first pass peels nothing and needs a flag, because D24 has no depth
 // below zero (E23).
-Drawn peel(Region& region, Target layer, Target nearest, Target peeled, bool first) {
+DrawCounts peel(Region& region, Target layer, Target nearest, Target peeled, bool first) {
     PassState state;
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
     state.depth_target = nearest;
@@ -31,9 +31,9 @@ Drawn peel(Region& region, Target layer, Target nearest, Target peeled, bool fir
     state.needs.reference = !first && !compare.is_plain();
     state.selection = nearest_behind(compare, state.reads[0]);
     const PreparedDraw& list = first ? *region.frame().transparent : region.frame().second_list();
-    return region.draw(state, list, [first, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    return region.draw(state, list, [first, compare](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         premultiply(in.color, out.color[0], lanes(in));
-        if (!first) discard_peeled(compare, in, own.depth(0), out);
+        if (!first) discard_peeled(compare, in, loads.depth(0), out);
     });
 }
 
@@ -44,11 +44,11 @@ Target draw_tail(Region& region, const ListingInputs& inputs, Target peeled) {
     state.reads[0] = peeled;
     const DepthCompare compare = region.frame().depth_compare();
     state.needs.reference = !compare.is_plain();
-    static_cast<void>(
-        region.draw(state, region.frame().second_list(), [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
-            tail.write(in, out);
-            discard_peeled(compare, in, own.depth(0), out);
-        }));
+    static_cast<void>(region.draw(state, region.frame().second_list(),
+                                  [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+                                      tail.write(in, out);
+                                      discard_peeled(compare, in, loads.depth(0), out);
+                                  }));
     return tail.resolve();
 }
 
@@ -66,7 +66,7 @@ void run(Region& region, const ListingInputs& inputs) {
         region.begin_iteration();
         region.clear(layer, {.color = {0, 0, 0, 0}});
         region.copy(region.opaque_depth(), nearest);
-        const Drawn drawn = peel(region, layer, nearest, peeled, first);
+        const DrawCounts drawn = peel(region, layer, nearest, peeled, first);
         composite_layer(region, layer, nearest, accumulated);
         std::swap(peeled, nearest);
         if (!region.any(drawn.passed, idle_when_zero(region.frame()))) {

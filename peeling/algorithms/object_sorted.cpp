@@ -36,8 +36,8 @@ bool is_occluded(Region& region, const Objects& remaining, std::size_t which, Ta
     state.depth = {.enabled = true, .func = CompareFunc::greater, .write = false};
     state.reads[0] = region.opaque_depth();
     state.primitives = {&remaining[which], 1};
-    const Drawn behind = region.draw(
-        state, [](const FragmentBatch& in, const Loads& own, Outputs& out) { keep_before(in, own.depth(0), out); });
+    const DrawCounts behind = region.draw(
+        state, [](const FragmentBatch& in, const Loads& loads, Outputs& out) { keep_before(in, loads.depth(0), out); });
     return region.any(behind.passed, Idle::no);
 }
 

@@ -26,7 +26,7 @@ struct Buffers {
 // discards alpha 0. The map's texel is the one at the fragment's own pixel: s/q and t/q of a screen-aligned lookup are
 // off by less than a subpixel (pipeline/reference/texturing.md 2.4). Fragments that store alpha 0 are also discarded in
 // pass 0: a layer of theirs would be invisible.
-Drawn peel(Region& region, const Buffers& to) {
+DrawCounts peel(Region& region, const Buffers& to) {
     const bool first = !to.map.exists();
     const DepthCompare compare = region.frame().depth_compare();
     PassState state;
@@ -39,15 +39,15 @@ Drawn peel(Region& region, const Buffers& to) {
     state.needs.reference = !first;
     state.selection = nearest_behind(compare, to.map);
     const PreparedDraw& list = first ? *region.frame().transparent : region.frame().second_list();
-    return region.draw(state, list, [first, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    return region.draw(state, list, [first, compare](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         out.color[0] = in.color;
         if (first) return;
         Lanes<float>& alpha = out.color[0][3];
         const bool by_codes = compare.compares_codes() && compare.epsilon.ulps == 0;
         for (std::size_t i = 0; by_codes && i < lanes(in); ++i)
-            alpha[i] = select(mask(in.reference_code[i] > own.depth(0)[i]), alpha[i], 0.0f);
+            alpha[i] = select(mask(in.reference_code[i] > loads.depth(0)[i]), alpha[i], 0.0f);
         for (std::size_t i = 0; !by_codes && i < lanes(in); ++i)
-            alpha[i] = select(mask(compare.is_behind(in.reference_code[i], in.reference_z[i], own.depth(0)[i])),
+            alpha[i] = select(mask(compare.is_behind(in.reference_code[i], in.reference_z[i], loads.depth(0)[i])),
                               alpha[i], 0.0f);
     });
 }
@@ -69,7 +69,7 @@ void run(Region& region) {
         region.begin_iteration();
         region.clear(buffers.color, {.color = {0, 0, 0, 0}});
         region.copy(region.opaque_depth(), buffers.depth);
-        const Drawn drawn = peel(region, buffers);
+        const DrawCounts drawn = peel(region, buffers);
         buffers.map = copied(region, buffers.depth, region.make_depth());
         layers.depth.push_back(buffers.map);
         region.set_name(buffers.map, "map");

@@ -51,11 +51,11 @@ Capture capture(Region& region, Target stencil, int pass) {
     state.color[0] = into.color;
     state.reads[0] = region.opaque_depth();
     state.needs = code_with_color;
-    state.selection = {.keeps = Keeps::submitted,
+    state.selection = {.keeps = KeptFragments::submitted,
                        .far = {KeyBound::beyond(region.opaque_depth())},
                        .first_submitted = static_cast<std::uint32_t>(pass_samples * pass)};
-    static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        keep_before(in, own.depth(0), out);  // before the stencil test: a hidden fragment takes no sample
+    static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        keep_before(in, loads.depth(0), out);  // before the stencil test: a hidden fragment takes no sample
         out.color[0] = in.color;
     }));
     return into;

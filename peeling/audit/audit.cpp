@@ -254,7 +254,7 @@ Audit::Audit(const Frame& frame, const Body& body, const Algorithm& algorithm, s
 
 Audit::~Audit() = default;
 
-Watch Audit::watch() {
+RegionCallbacks Audit::callbacks() {
     return {.begun = [this](std::span<const RegionArea> regions) { impl_->begin(regions); },
             .ended = [this](Region& region, std::size_t number,
                             const Image& color) { impl_->look_at(region, number, color); },

@@ -45,7 +45,7 @@ class Audit {
     Audit& operator=(const Audit&) = delete;
 
     // The callbacks for the executor.
-    [[nodiscard]] pipeline::Watch watch();
+    [[nodiscard]] pipeline::RegionCallbacks callbacks();
 
     // Call after the frame has run. Throws InputError if the fragments of one pixel do not fit into the memory.
     [[nodiscard]] AuditResult finish(const pipeline::FrameResult& result);

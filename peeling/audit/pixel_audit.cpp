@@ -59,7 +59,7 @@ std::size_t distinct_keys(const FragmentOrder& by_key) {
 // True if two orders have equal fragments at every position.
 bool are_alike(std::span<const KeyedFragment> fragments, const FragmentOrder& a, const FragmentOrder& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](std::uint64_t x, std::uint64_t y) {
-        return x == y || fragments[place_of(x)] == fragments[place_of(y)];
+        return x == y || fragments[submission_index(x)] == fragments[submission_index(y)];
     });
 }
 
@@ -87,7 +87,7 @@ void PixelAudit::look_at(std::span<const KeyedFragment> visible, const PixelTrac
     apply(algorithm_.ties, kept_);
     found_.lost_by_ties += fragments.size() - kept_.size();
     traces->near_to_far(pixel.x, pixel.y, sequence_, backs_);
-    const std::uint64_t errors = places_that_differ(fragments);
+    const std::uint64_t errors = differing_positions(fragments);
     *found_.order_errors += errors;
     if (errors > 0) add(found_.misordered, pixel.x, pixel.y);
     compare(fragments, pixel, are_alike(fragments, kept_, by_key_));
@@ -102,11 +102,11 @@ std::span<const KeyedFragment> PixelAudit::with_alpha(std::span<const KeyedFragm
 }
 
 // Each entry of the longer sequence beyond the end of the shorter one counts as an error.
-std::uint64_t PixelAudit::places_that_differ(std::span<const KeyedFragment> fragments) const {
+std::uint64_t PixelAudit::differing_positions(std::span<const KeyedFragment> fragments) const {
     const std::size_t shared = std::min(kept_.size(), sequence_.size());
     std::uint64_t errors = std::max(kept_.size(), sequence_.size()) - shared;
     for (std::size_t i = 0; i < shared; ++i) {
-        const KeyedFragment& expected = fragments[place_of(kept_[i])];
+        const KeyedFragment& expected = fragments[submission_index(kept_[i])];
         const TraceEntry& found = sequence_[i];
         // An entry may represent a layer without identifying the fragment; then only its key is compared.
         const bool is_same_fragment = !found.is_fragment || found.primitive == expected.primitive;

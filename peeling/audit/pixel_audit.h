@@ -55,7 +55,7 @@ class PixelAudit {
 
   private:
     [[nodiscard]] std::span<const KeyedFragment> with_alpha(std::span<const KeyedFragment> fragments);
-    [[nodiscard]] std::uint64_t places_that_differ(std::span<const KeyedFragment> fragments) const;
+    [[nodiscard]] std::uint64_t differing_positions(std::span<const KeyedFragment> fragments) const;
     void compare(std::span<const KeyedFragment> fragments, const AuditedPixel& pixel, bool ties_change_nothing);
 
     const Algorithm& algorithm_;

@@ -7,7 +7,7 @@ namespace strata::peeling {
 
 using namespace pipeline;
 
-Watch keep_traces(std::vector<RegionTrace>& traces) {
+RegionCallbacks keep_traces(std::vector<RegionTrace>& traces) {
     // One element per region is made before the frame runs, so that workers need no lock.
     const auto begin = [&traces](std::span<const RegionArea> regions) {
         traces.clear();

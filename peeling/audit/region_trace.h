@@ -16,6 +16,6 @@ struct RegionTrace {
 
 // Keeps the traces of a frame's regions in `traces` while it runs: one per region, or a single one if the frame runs as
 // a whole.
-[[nodiscard]] pipeline::Watch keep_traces(std::vector<RegionTrace>& traces);
+[[nodiscard]] pipeline::RegionCallbacks keep_traces(std::vector<RegionTrace>& traces);
 
 }  // namespace strata::peeling

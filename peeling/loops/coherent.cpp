@@ -20,15 +20,15 @@ StencilTest stencil_test(CompareFunc func, std::uint8_t ref, StencilOp fail, Ste
 }
 
 // The range of passes 3 and 4: from the nearest fragment, inclusive (E17), to `previous`, exclusive.
-void keep_after_nearest(const FragmentBatch& in, const Loads& own, Outputs& out) noexcept {
-    keep_from(in, own.depth(0), out);
-    keep_before(in, own.depth(1), out);
-    keep_before(in, own.depth(2), out);
+void keep_after_nearest(const FragmentBatch& in, const Loads& loads, Outputs& out) noexcept {
+    keep_from(in, loads.depth(0), out);
+    keep_before(in, loads.depth(1), out);
+    keep_before(in, loads.depth(2), out);
 }
 
 // The same range as a selection.
 FragmentSelection selects_after_nearest(const CoherentPeel& peel) {
-    return {.keeps = Keeps::interval,
+    return {.keeps = KeptFragments::interval,
             .near = KeyBound::at(peel.nearest),
             .far = {KeyBound::beyond(peel.previous), KeyBound::beyond(peel.region.opaque_depth())}};
 }
@@ -76,23 +76,23 @@ void find_breaker(CoherentPeel& peel) {
 void find_reached(CoherentPeel& peel) {
     PassState state = find_state(peel.reached, CompareFunc::always);
     state.reads = {peel.previous, peel.breaker, peel.region.opaque_depth()};
-    static_cast<void>(peel.region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    static_cast<void>(peel.region.full_screen(state, [](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         out.replaces_depth = true;
         for (std::size_t i = 0; i < lanes(in); ++i)
-            out.depth[i] = std::min({own.depth(0)[i], own.depth(1)[i], own.depth(2)[i]});
+            out.depth[i] = std::min({loads.depth(0)[i], loads.depth(1)[i], loads.depth(2)[i]});
     }));
     peel.from_the_start = false;
 }
 
 // Pass 5 composites the run without its end.
-Drawn composite_run(CoherentPeel& peel) {
+DrawCounts composite_run(CoherentPeel& peel) {
     PassState state = composite_state(peel.accumulated);
     state.reads = {peel.nearest, peel.reached};
     state.selection = {
-        .keeps = Keeps::interval, .near = KeyBound::at(peel.nearest), .far = {KeyBound::beyond(peel.reached)}};
-    return peel.region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        keep_from(in, own.depth(0), out);
-        keep_before(in, own.depth(1), out);
+        .keeps = KeptFragments::interval, .near = KeyBound::at(peel.nearest), .far = {KeyBound::beyond(peel.reached)}};
+    return peel.region.draw(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        keep_from(in, loads.depth(0), out);
+        keep_before(in, loads.depth(1), out);
         composite_under(in, out);
         note_composited(peel, in, out);
     });
@@ -100,15 +100,15 @@ Drawn composite_run(CoherentPeel& peel) {
 
 // Pass 6 composites the fragments exactly at the end, unless that is the opaque surface. As published they are
 // composited even then, and again in every iteration (E22).
-Drawn composite_end(CoherentPeel& peel) {
+DrawCounts composite_end(CoherentPeel& peel) {
     PassState state = composite_state(peel.accumulated);
     state.reads = {peel.reached, peel.region.opaque_depth()};
     state.selection = {
-        .keeps = Keeps::interval, .near = KeyBound::at(peel.reached), .far = {KeyBound::at(peel.reached)}};
+        .keeps = KeptFragments::interval, .near = KeyBound::at(peel.reached), .far = {KeyBound::at(peel.reached)}};
     peel.ties.start();
-    return peel.region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        keep_at(in, own.depth(0), out);
-        if (!peel.published) keep_before(in, own.depth(1), out);
+    return peel.region.draw(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        keep_at(in, loads.depth(0), out);
+        if (!peel.published) keep_before(in, loads.depth(1), out);
         composite_under(in, out);
         peel.ties.add(in, out);
         note_composited(peel, in, out);
@@ -125,7 +125,7 @@ Count finish_iteration(CoherentPeel& peel, const FirstPasses& first) {
     count_run(peel);
     find_breaker(peel);
     find_reached(peel);
-    const Drawn run = composite_run(peel);
+    const DrawCounts run = composite_run(peel);
     return run.passed + composite_end(peel).passed;
 }
 
@@ -133,7 +133,7 @@ Count finish_iteration(CoherentPeel& peel, const FirstPasses& first) {
 void peel_until_nothing_is_left(CoherentPeel& peel, const FirstPasses& first) {
     Region& region = peel.region;
     if (region.limit_reached()) return;
-    Drawn found = first.find_nearest(peel);
+    DrawCounts found = first.find_nearest(peel);
     while (region.any(found.passed, Idle::yes) && !region.limit_reached(first.geometry_passes + later_passes)) {
         region.begin_iteration();
         static_cast<void>(finish_iteration(peel, first));
@@ -148,9 +148,9 @@ Count progress(CoherentPeel& peel, Target farthest) {
     state.reads[0] = peel.reached;
     return peel.region
         .full_screen(state,
-                     [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+                     [](const FragmentBatch& in, const Loads& loads, Outputs& out) {
                          out.replaces_depth = true;
-                         std::copy_n(own.depth(0).begin(), lanes(in), out.depth.begin());
+                         std::copy_n(loads.depth(0).begin(), lanes(in), out.depth.begin());
                      })
         .passed;
 }

@@ -50,21 +50,21 @@ struct CoherentPeel {
 // Passes 1 and 2, the only ones in which the formulations differ.
 struct FirstPasses {
     int geometry_passes = 0;
-    pipeline::Drawn (*find_nearest)(CoherentPeel&) = nullptr;  // its query says whether anything is left
+    pipeline::DrawCounts (*find_nearest)(CoherentPeel&) = nullptr;  // its query says whether anything is left
     void (*find_previous)(CoherentPeel&) = nullptr;
 };
 
 // The range of passes 1 and 2: behind everything composited, before the opaque surface. Reads 0 and 1 are `reached` and
 // the opaque depth.
-inline void keep_what_is_left(const CoherentPeel& peel, const pipeline::FragmentBatch& in, const pipeline::Loads& own,
-                              pipeline::Outputs& out) noexcept {
-    if (!peel.from_the_start) keep_behind(in, own.depth(0), out);
-    keep_before(in, own.depth(1), out);
+inline void keep_remaining(const CoherentPeel& peel, const pipeline::FragmentBatch& in, const pipeline::Loads& loads,
+                           pipeline::Outputs& out) noexcept {
+    if (!peel.from_the_start) keep_behind(in, loads.depth(0), out);
+    keep_before(in, loads.depth(1), out);
 }
 
 // The same range as a selection.
-[[nodiscard]] inline pipeline::FragmentSelection selects_what_is_left(const CoherentPeel& peel) {
-    return {.keeps = pipeline::Keeps::interval,
+[[nodiscard]] inline pipeline::FragmentSelection select_remaining(const CoherentPeel& peel) {
+    return {.keeps = pipeline::KeptFragments::interval,
             .near = pipeline::KeyBound::beyond(peel.from_the_start ? pipeline::Target{} : peel.reached),
             .far = {pipeline::KeyBound::beyond(peel.region.opaque_depth())}};
 }
@@ -89,8 +89,8 @@ extern const FirstPasses passes;
 void count_run(CoherentPeel& peel);
 void find_breaker(CoherentPeel& peel);
 void find_reached(CoherentPeel& peel);
-pipeline::Drawn composite_run(CoherentPeel& peel);
-pipeline::Drawn composite_end(CoherentPeel& peel);
+pipeline::DrawCounts composite_run(CoherentPeel& peel);
+pipeline::DrawCounts composite_end(CoherentPeel& peel);
 
 // Peels until nothing is left and publishes the result.
 void peel_coherently(pipeline::Region& region, const FirstPasses& first);

@@ -44,7 +44,7 @@ class Peel {
         while (!region_.limit_reached(passes(has_layer))) {
             region_.begin_iteration();
             if (has_layer) composite_layer();
-            const Drawn found = find_layer();
+            const DrawCounts found = find_layer();
             if (sets_.ordered) composite_ordered();
             has_layer = true;
             if (!(more = region_.any(found.passed, idle()))) break;
@@ -63,7 +63,7 @@ class Peel {
     [[nodiscard]] Idle idle() const { return published_ || region_.limit_reached(passes(true)) ? Idle::no : Idle::yes; }
 
     // Finds the nearest unordered fragment strictly behind `peeled` and before the opaque surface.
-    Drawn find_layer() {
+    DrawCounts find_layer() {
         region_.copy(region_.opaque_depth(), layer_);
         PassState state;
         state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
@@ -71,10 +71,10 @@ class Peel {
         state.reads[0] = peeled_;
         state.needs = code_only;
         state.primitives = as_span(sets_.unordered);
-        state.selection = {.keeps = Keeps::nearest};
+        state.selection = {.keeps = KeptFragments::nearest};
         if (!from_the_start_) state.selection.near = KeyBound::beyond(peeled_);
-        return region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
-            if (!from_the_start_) keep_behind(in, own.depth(0), out);
+        return region_.draw(state, [this](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+            if (!from_the_start_) keep_behind(in, loads.depth(0), out);
         });
     }
 
@@ -84,15 +84,15 @@ class Peel {
         PassState state = composite_state(accumulated_);
         state.reads = {peeled_, layer_, region_.opaque_depth()};
         state.primitives = as_span(sets_.ordered);
-        state.selection = {.keeps = Keeps::interval, .far = {KeyBound::at(layer_)}};
+        state.selection = {.keeps = KeptFragments::interval, .far = {KeyBound::at(layer_)}};
         if (!from_the_start_) state.selection.near = KeyBound::beyond(peeled_);
-        static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
-            if (!from_the_start_) keep_behind(in, own.depth(0), out);
+        static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+            if (!from_the_start_) keep_behind(in, loads.depth(0), out);
             if (published_)
-                keep_before(in, own.depth(1), out);  // as published: loses fragments at the layer's depth (E24)
+                keep_before(in, loads.depth(1), out);  // as published: loses fragments at the layer's depth (E24)
             else
-                keep_up_to(in, own.depth(1), out);
-            keep_before(in, own.depth(2), out);
+                keep_up_to(in, loads.depth(1), out);
+            keep_before(in, loads.depth(2), out);
             composite_under(in, out);
         }));
     }
@@ -102,12 +102,13 @@ class Peel {
         PassState state = composite_state(accumulated_);
         state.reads = {layer_, region_.opaque_depth()};
         state.primitives = as_span(sets_.unordered);
-        state.selection = {.keeps = Keeps::interval, .near = KeyBound::at(layer_), .far = {KeyBound::at(layer_)}};
+        state.selection = {
+            .keeps = KeptFragments::interval, .near = KeyBound::at(layer_), .far = {KeyBound::at(layer_)}};
         ties_.start();
-        static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
-            keep_at(in, own.depth(0), out);
+        static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+            keep_at(in, loads.depth(0), out);
             if (!published_)
-                keep_before(in, own.depth(1), out);  // a finished pixel's layer is the opaque surface (E24)
+                keep_before(in, loads.depth(1), out);  // a finished pixel's layer is the opaque surface (E24)
             composite_under(in, out);
             ties_.add(in, out);
         }));

@@ -20,7 +20,7 @@ inline namespace strict {
     std::array<double, 4> color{background[0], background[1], background[2]};
     double through = 1.0 - double{background[3]};
     for (std::size_t i = near_to_far.size(); i-- > 0;) {
-        const pipeline::Rgba& source = fragments[place_of(near_to_far[i])].color;
+        const pipeline::Rgba& source = fragments[submission_index(near_to_far[i])].color;
         const double alpha = source[3];
         for (std::size_t c = 0; c < 3; ++c) color[c] = alpha * source[c] + (1.0 - alpha) * color[c];
         through *= 1.0 - alpha;

@@ -121,11 +121,11 @@ void list_visible(Region& region, const PixelRange& pixels, std::span<const std:
         static_cast<void>(
             region.draw(state, [&](const FragmentBatch& in, const Loads&, Outputs& out) { file(in, out); }));
     } else {
-        static_cast<void>(RegionShortcuts{region}.look(list_needs, rect_of(pixels, region.rect()),
-                                                       [&](const FragmentBatch& in, const Outputs& out) {
-                                                           file(in, out);
-                                                           return true;
-                                                       }));
+        static_cast<void>(RegionShortcuts{region}.visit_batches(list_needs, rect_of(pixels, region.rect()),
+                                                                [&](const FragmentBatch& in, const Outputs& out) {
+                                                                    file(in, out);
+                                                                    return true;
+                                                                }));
     }
 }
 

@@ -19,9 +19,9 @@ void composite_quads(Region& region, const SavedLayers& layers, Target result) {
         state.reads[0] = layers.color[layer];
         const bool is_traced = trace_layer(state, region, layers.depth[layer]);
         static_cast<void>(
-            region.full_screen(state, [is_traced](const FragmentBatch& in, const Loads& own, Outputs& out) {
-                out.color[0] = own.color(0);
-                if (is_traced) trace_layer(own, lanes(in), Side::back, out);
+            region.full_screen(state, [is_traced](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+                out.color[0] = loads.color(0);
+                if (is_traced) trace_layer(loads, lanes(in), Side::back, out);
             }));
     }
 }
@@ -32,9 +32,9 @@ void composite_layer(Region& region, Target layer, Target depth, Target accumula
     state.blend[0] = blend_mode::under;
     state.reads[0] = layer;
     const bool is_traced = trace_layer(state, region, depth);
-    static_cast<void>(region.full_screen(state, [is_traced](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        out.color[0] = own.color(0);  // alpha 0 where the pixel has no such layer: UNDER leaves the target unchanged
-        if (is_traced) trace_layer(own, lanes(in), Side::front, out);
+    static_cast<void>(region.full_screen(state, [is_traced](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        out.color[0] = loads.color(0);  // alpha 0 where the pixel has no such layer: UNDER leaves the target unchanged
+        if (is_traced) trace_layer(loads, lanes(in), Side::front, out);
     }));
 }
 

@@ -21,11 +21,11 @@ void composite_layer(pipeline::Region& region, pipeline::Target layer, pipeline:
     depths[1] = region.opaque_depth();
     return is_traced;
 }
-inline void trace_layer(const pipeline::Loads& own, std::size_t count, pipeline::Side side, pipeline::Outputs& out) {
+inline void trace_layer(const pipeline::Loads& loads, std::size_t count, pipeline::Side side, pipeline::Outputs& out) {
     out.traced = true;
     for (std::size_t i = 0; i < count; ++i) {
-        out.side[i] = own.depth(1)[i] != own.depth(2)[i] ? side : pipeline::Side::none;
-        out.key[i] = own.depth(1)[i];
+        out.side[i] = loads.depth(1)[i] != loads.depth(2)[i] ? side : pipeline::Side::none;
+        out.key[i] = loads.depth(1)[i];
     }
 }
 

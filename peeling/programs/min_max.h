@@ -108,12 +108,13 @@ inline void initialize(pipeline::Region& region, pipeline::Target min_max) {
     state.reads[0] = region.opaque_depth();
     state.needs = {
         .shader_z = true, .code = false, .exact_code = false, .color = false, .texcoord = false, .facing = false};
-    state.selection = {
-        .keeps = Keeps::ends, .outside = Outside::writes_alike, .far = {KeyBound::beyond(region.opaque_depth())}};
-    static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    state.selection = {.keeps = KeptFragments::ends,
+                       .outside = Outside::writes_alike,
+                       .far = {KeyBound::beyond(region.opaque_depth())}};
+    static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         Lanes<std::uint32_t> visible;
         for (std::size_t i = 0; i < lanes(in); ++i)
-            visible[i] = mask(in.shader_z[i] < std::bit_cast<float>(own.depth(0)[i]));
+            visible[i] = mask(in.shader_z[i] < std::bit_cast<float>(loads.depth(0)[i]));
         write_min_max(in, visible, out.color[0]);
     }));
 }
@@ -122,7 +123,7 @@ inline void initialize(pipeline::Region& region, pipeline::Target min_max) {
 [[nodiscard]] inline pipeline::FragmentSelection ends_between(const pipeline::DepthCompare& compare,
                                                               pipeline::Target min_max, pipeline::Target surface,
                                                               pipeline::Outside outside) {
-    pipeline::FragmentSelection selection{.keeps = pipeline::Keeps::ends,
+    pipeline::FragmentSelection selection{.keeps = pipeline::KeptFragments::ends,
                                           .outside = outside,
                                           .far = {pipeline::KeyBound::beyond(surface)},
                                           .range = min_max};
@@ -175,11 +176,11 @@ class DualLayers {
         state.reads = {min_max, region_.opaque_depth()};
         const DepthCompare compare = region_.frame().depth_compare();
         state.needs.reference = !compare.is_plain();
-        if (compare.is_plain()) state.selection = {.keeps = Keeps::interval, .range = layer_.end};
+        if (compare.is_plain()) state.selection = {.keeps = KeptFragments::interval, .range = layer_.end};
         static_cast<void>(region_.draw(
-            state, region_.frame().second_list(), [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            state, region_.frame().second_list(), [=](const FragmentBatch& in, const Loads& loads, Outputs& out) {
                 PeelLanes lane;
-                classify(compare, in, own.color(0), own.depth(1), lane);
+                classify(compare, in, loads.color(0), loads.depth(1), lane);
                 const Lanes<std::uint32_t>& taken = side == Side::front ? lane.is_near : lane.is_far;
                 for (std::size_t i = 0; i < lanes(in); ++i) out.alive[i] &= taken[i];
                 out.color[0] = in.color;
@@ -193,9 +194,9 @@ class DualLayers {
         PassState state;
         state.color[0] = layer_.end;
         state.reads[0] = min_max;
-        static_cast<void>(region_.full_screen(state, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        static_cast<void>(region_.full_screen(state, [=](const FragmentBatch& in, const Loads& loads, Outputs& out) {
             for (std::size_t i = 0; i < lanes(in); ++i) {
-                const float z = side == Side::front ? -own.color(0)[0][i] : own.color(0)[1][i];
+                const float z = side == Side::front ? -loads.color(0)[0][i] : loads.color(0)[1][i];
                 out.color[0][0][i] = -z;
                 out.color[0][1][i] = z;
             }

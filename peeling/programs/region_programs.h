@@ -9,7 +9,7 @@ namespace strata::peeling {
 // The selection of a peel that keeps the nearest fragment behind `peeled`, by any compared depth.
 [[nodiscard]] inline pipeline::FragmentSelection nearest_behind(const pipeline::DepthCompare& compare,
                                                                 pipeline::Target peeled) {
-    pipeline::FragmentSelection selection{.keeps = pipeline::Keeps::nearest,
+    pipeline::FragmentSelection selection{.keeps = pipeline::KeptFragments::nearest,
                                           .near = pipeline::KeyBound::beyond(peeled)};
     if (!compare.is_plain()) selection.compared = compare;
     return selection;
@@ -64,14 +64,14 @@ inline void publish_over(pipeline::Region& region, pipeline::Target front, Front
     PassState state;
     state.color[0] = result;
     state.reads = {front, behind};
-    static_cast<void>(region.full_screen(state, [meaning](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    static_cast<void>(region.full_screen(state, [meaning](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         Lanes<float> through;
-        for (std::size_t i = 0; i < lanes(in); ++i) through[i] = scalar::through_front(meaning, own.color(0)[3][i]);
+        for (std::size_t i = 0; i < lanes(in); ++i) through[i] = scalar::through_front(meaning, loads.color(0)[3][i]);
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t i = 0; i < lanes(in); ++i)
-                out.color[0][c][i] = scalar::composited(own.color(0)[c][i], through[i], own.color(1)[c][i]);
+                out.color[0][c][i] = scalar::composited(loads.color(0)[c][i], through[i], loads.color(1)[c][i]);
         for (std::size_t i = 0; i < lanes(in); ++i)
-            out.color[0][3][i] = scalar::alpha_over(through[i], own.color(1)[3][i]);
+            out.color[0][3][i] = scalar::alpha_over(through[i], loads.color(1)[3][i]);
     }));
     region.publish(result);
 }

@@ -30,7 +30,8 @@ void sort_almost(std::uint32_t KeyedFragment::*code, std::span<const KeyedFragme
     order.clear();
     std::size_t steps = 8 * near_order.size();
     for (const std::uint64_t near : near_order) {
-        const std::uint64_t entry = std::uint64_t{fragments[place_of(near)].*code} << 32 | place_of(near);
+        const std::uint64_t entry =
+            std::uint64_t{fragments[submission_index(near)].*code} << 32 | submission_index(near);
         order.push_back(entry);
         for (std::size_t i = order.size() - 1; i > 0 && order[i - 1] > entry; --i) {
             if (steps-- == 0) return sort_by(code, fragments, order);

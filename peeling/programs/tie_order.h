@@ -14,7 +14,7 @@ namespace strata::peeling {
 // A pixel's fragments in an order: each entry is its depth in the high half and its submission index in the low half.
 // Ascending entries are nearest first, and the first submitted first.
 using FragmentOrder = std::vector<std::uint64_t>;
-[[nodiscard]] constexpr std::uint32_t place_of(std::uint64_t entry) noexcept {
+[[nodiscard]] constexpr std::uint32_t submission_index(std::uint64_t entry) noexcept {
     return static_cast<std::uint32_t>(entry);
 }
 [[nodiscard]] constexpr std::uint32_t depth_of(std::uint64_t entry) noexcept {

@@ -85,7 +85,7 @@ bool shares_terms(const Blend& a, const Blend& b) {
 
 }  // namespace
 
-std::string Refusal::sentence(const DeviceProfile& profile) const {
+std::string Refusal::message(const DeviceProfile& profile) const {
     std::string text = "profile " + profile.name + " has no " + feature;
     if (!extension.empty()) text += " (" + extension + ")";
     if (!way_out.empty()) text += "; " + way_out;

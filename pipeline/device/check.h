@@ -55,14 +55,14 @@ struct Refusal {
     friend bool operator==(const Refusal&, const Refusal&) = default;
 
     // "profile geforce3 has no independent blend equations (ARB_draw_buffers_blend); use geforce8_dx101 or ideal"
-    [[nodiscard]] std::string sentence(const DeviceProfile& profile) const;
+    [[nodiscard]] std::string message(const DeviceProfile& profile) const;
 };
 
 // Thrown before a pass that the profile cannot run. Callers expect and report it; it is not a programming error. what()
 // is the message of Refusal::sentence.
 struct Refused : std::runtime_error {
     Refused(const DeviceProfile& profile, Refusal why)
-        : std::runtime_error{why.sentence(profile)}, refusal{std::move(why)} {}
+        : std::runtime_error{why.message(profile)}, refusal{std::move(why)} {}
     Refusal refusal;
 };
 

@@ -123,8 +123,8 @@ struct DeviceProfile {
         return f == DepthFormat::d24 && has_d24 && depth24 == Depth24::binary32 ? DepthFormat::d32f : f;
     }
     // The same for the requested format, or for the best one if none is requested.
-    [[nodiscard]] DepthFormat depth_buffer(std::optional<DepthFormat> asked) const noexcept {
-        return stored(asked.value_or(has_d32f ? DepthFormat::d32f : DepthFormat::d24));
+    [[nodiscard]] DepthFormat depth_buffer(std::optional<DepthFormat> requested) const noexcept {
+        return stored(requested.value_or(has_d32f ? DepthFormat::d32f : DepthFormat::d24));
     }
     // True if the device has depth buffers of that format; d24s8 is a d24 with a separate stencil.
     [[nodiscard]] bool has_depth(DepthFormat f) const noexcept {

@@ -41,7 +41,7 @@ Keys keys_at(const KeyIntervals& intervals, std::size_t pixel) {
 
 // The position of a list's first key that is not less than `low`.
 std::uint32_t first_from(SortedLists& sorted, std::size_t pixel, const List& list, std::uint64_t low) {
-    std::uint32_t& first = sorted.found(pixel).first;
+    std::uint32_t& first = sorted.previous_range(pixel).first;
     return first = list.below(low, first);
 }
 
@@ -98,14 +98,14 @@ bool find_intervals(SortedLists& sorted, const KeyIntervals& intervals, Fragment
     for_each_list(sorted, [&](std::size_t pixel, const List& list) {
         const Keys keys = keys_at(intervals, pixel);
         const std::uint32_t first = first_from(sorted, pixel, list, keys.low);
-        std::uint32_t& last = sorted.found(pixel).last;
+        std::uint32_t& last = sorted.previous_range(pixel).last;
         last = keys.high > 0xffffffff ? list.size() : std::max(first, list.below(keys.high, first));
         inside += last - first;
     });
     if (2 * inside > sorted.size()) return false;
     InOrder kept;
     for_each_list(sorted, [&](std::size_t pixel, const List& list) {
-        const auto [first, last] = sorted.found(pixel);
+        const auto [first, last] = sorted.previous_range(pixel);
         if (last == first + 1) return waves.add(0, pixel, list[first]);
         for (std::uint32_t k = first; k < last; ++k) kept.put(list[k]);
         kept.add_to(waves, pixel);
@@ -114,10 +114,11 @@ bool find_intervals(SortedLists& sorted, const KeyIntervals& intervals, Fragment
 }
 
 // Entries [first, last) of a list: each end is searched from its position in the previous pass.
-SortedLists::Found range_of(SortedLists& sorted, const KeyIntervals& intervals, std::size_t pixel, const List& list) {
+SortedLists::ListRange range_of(SortedLists& sorted, const KeyIntervals& intervals, std::size_t pixel,
+                                const List& list) {
     const Keys keys = keys_at(intervals, pixel);
     const std::uint32_t first = first_from(sorted, pixel, list, keys.low);
-    std::uint32_t& last = sorted.found(pixel).last;
+    std::uint32_t& last = sorted.previous_range(pixel).last;
     last = std::max(first, list.below(keys.high, std::min(last, list.size())));
     return {first, last};
 }

@@ -19,24 +19,28 @@ namespace strata::pipeline {
 // A bound of the keys of each pixel.
 class BoundPlane {
   public:
-    enum class Holds : std::uint8_t { codes, depths, values };  // keys; bits of binary32 keys; binary32 values of codes
+    enum class Contents : std::uint8_t {
+        codes,
+        depths,
+        values
+    };  // keys; bits of binary32 keys; binary32 values of codes
     BoundPlane() = default;
-    BoundPlane(const std::uint32_t* entries, bool includes, Holds holds, rasterizer::DepthFormat format)
-        : entries_{entries}, includes_{includes}, holds_{holds}, format_{format} {}
+    BoundPlane(const std::uint32_t* entries, bool includes, Contents contents, rasterizer::DepthFormat format)
+        : entries_{entries}, includes_{includes}, contents_{contents}, format_{format} {}
     [[nodiscard]] bool exists() const noexcept { return entries_ != nullptr; }
     // The least key behind the bound: greater than it, or not less if the bound is included.
     [[nodiscard]] std::uint64_t first_behind(std::size_t pixel) const noexcept {
-        if (holds_ == Holds::values) return first_near_value(pixel, 0);
+        if (contents_ == Contents::values) return first_near_value(pixel, 0);
         return key(pixel) + (includes_ ? 0 : 1);
     }
     // One more than the greatest key in front of the bound: less than it, or not greater if the bound is included.
     [[nodiscard]] std::uint64_t end_before(std::size_t pixel) const noexcept {
-        if (holds_ == Holds::values) return first_near_value(pixel, 1);
+        if (contents_ == Contents::values) return first_near_value(pixel, 1);
         return key(pixel) + (includes_ ? 1 : 0);
     }
     [[nodiscard]] std::uint64_t key(std::size_t pixel) const noexcept {
-        return holds_ == Holds::depths ? rasterizer::ordered_code(std::bit_cast<float>(entries_[pixel]))
-                                       : entries_[pixel];
+        return contents_ == Contents::depths ? rasterizer::ordered_code(std::bit_cast<float>(entries_[pixel]))
+                                             : entries_[pixel];
     }
 
   private:
@@ -51,7 +55,7 @@ class BoundPlane {
 
     const std::uint32_t* entries_ = nullptr;
     bool includes_ = false;
-    Holds holds_ = Holds::codes;
+    Contents contents_ = Contents::codes;
     rasterizer::DepthFormat format_ = rasterizer::DepthFormat::d32f;
 };
 

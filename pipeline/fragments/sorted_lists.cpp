@@ -52,8 +52,8 @@ bool SortedLists::sort(const TileFragments& fragments, const SortRequest& reques
         if (entries * sizeof(std::uint64_t) > limit || entries > 0xffffffff) return false;
         begin_.push_back(static_cast<std::uint32_t>(entries));
     }
-    found_.assign(pixels, {});
-    place_words(fragments);
+    previous_ranges_.assign(pixels, {});
+    distribute_entries(fragments);
     for (std::size_t block = 0; !request.by_submission && block < blocks(); ++block)
         sort_levels(entries_.data() + begin_[block], height(block));
     state_ = State::sorted;
@@ -87,7 +87,7 @@ void SortedLists::choose(const TileFragments& fragments, const std::uint32_t* su
 }
 
 // Writes each entry at the end of its pixel's list so far; entries past the end of a list are set to ~0 first.
-void SortedLists::place_words(const TileFragments& fragments) {
+void SortedLists::distribute_entries(const TileFragments& fragments) {
     entries_.resize(begin_.back());
     std::ranges::fill(entries_, ~std::uint64_t{0});
     const auto pixel = fragments.pixel();

@@ -90,24 +90,24 @@ class SortedLists {
         return {entries_.data() + begin_[pixel / block_lanes] + pixel % block_lanes, count_[pixel]};
     }
     // Where the interval of the previous pass began and ended at a pixel: the next search starts there.
-    struct Found {
+    struct ListRange {
         std::uint32_t first = 0, last = 0;
     };
-    [[nodiscard]] Found& found(std::size_t pixel) noexcept { return found_[pixel]; }
+    [[nodiscard]] ListRange& previous_range(std::size_t pixel) noexcept { return previous_ranges_[pixel]; }
 
   private:
     enum class State : std::uint8_t { empty, sorted, declined };
 
     [[nodiscard]] bool has_order(const TileFragments& fragments) const;
     void choose(const TileFragments& fragments, const std::uint32_t* surface);
-    void place_words(const TileFragments& fragments);
+    void distribute_entries(const TileFragments& fragments);
 
     State state_ = State::empty;
     SortRequest request_;
     std::uint64_t size_ = 0;
-    std::vector<std::uint32_t> begin_;  // by block, plus the end of the last block
-    std::vector<std::uint32_t> count_;  // by pixel
-    std::vector<Found> found_;          // by pixel
+    std::vector<std::uint32_t> begin_;        // by block, plus the end of the last block
+    std::vector<std::uint32_t> count_;        // by pixel
+    std::vector<ListRange> previous_ranges_;  // by pixel
     UninitializedVector<std::uint64_t> entries_;
     UninitializedVector<std::uint32_t> taken_;  // by index: ~0 or 0, while entries are added
 };

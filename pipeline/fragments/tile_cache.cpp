@@ -26,7 +26,7 @@ CachedTiles::CachedTiles(const rasterizer::Rect& region, const rasterizer::Rect&
       y0_{region.y0 - frame.y0},
       across_{static_cast<std::uint32_t>((frame.width() + side - 1) / side)},
       down_{static_cast<std::uint32_t>((frame.height() + side - 1) / side)} {
-    for (std::uint32_t tile = 0; tile < count(); ++tile) ++wanted_[place_of(tile)];
+    for (std::uint32_t tile = 0; tile < count(); ++tile) ++tiles_of_slot_[slot_of(tile)];
 }
 
 std::uint32_t CachedTiles::tile_of(std::uint32_t pixel) const noexcept {
@@ -36,8 +36,8 @@ std::uint32_t CachedTiles::tile_of(std::uint32_t pixel) const noexcept {
     return y / side * across_ + x / side;
 }
 
-std::size_t CachedTiles::place_of(std::uint32_t tile) const noexcept {
-    return (tile % across_ + 5 * (tile / across_)) % places;
+std::size_t CachedTiles::slot_of(std::uint32_t tile) const noexcept {
+    return (tile % across_ + 5 * (tile / across_)) % slots;
 }
 
 CachedTarget::CachedTarget(const CachedTiles& tiles, const DeviceProfile& profile, const Blend& blending,
@@ -139,8 +139,8 @@ bool TileCache::knows(const Blend& blending, Format format) noexcept {
 }
 
 // Writes back the tile that occupies the slot.
-void TileCache::take_place(CachedTarget& target, std::size_t number, std::uint32_t tile) {
-    std::uint32_t& owner = owner_[number][tiles_.place_of(tile)];
+void TileCache::take_slot(CachedTarget& target, std::size_t number, std::uint32_t tile) {
+    std::uint32_t& owner = owner_[number][tiles_.slot_of(tile)];
     if (owner != no_tile && owner != tile) target.write_back(owner);
     owner = tile;
 }
@@ -158,13 +158,13 @@ void TileCache::blend(std::size_t number, const CachedLanes& lanes) {
     for (int lane = 0; lane < batch.count; ++lane) {
         const auto i = static_cast<std::size_t>(lane);
         if (lanes.fetched[i] == 0) continue;
-        const std::uint32_t tile = tiles_.tile_of(batch.pixel[i]), owner = owner_[number][tiles_.place_of(tile)];
+        const std::uint32_t tile = tiles_.tile_of(batch.pixel[i]), owner = owner_[number][tiles_.slot_of(tile)];
         if (owner == tile) continue;
         if (owner != no_tile && first < lane) {
             target.blend(lanes, first, lane);
             first = lane;
         }
-        take_place(target, number, tile);
+        take_slot(target, number, tile);
     }
     target.blend(lanes, first, batch.count);
 }

@@ -38,21 +38,21 @@ struct CachedLanes {
 // The tile of each pixel of a region, and the slot of each tile.
 class CachedTiles {
   public:
-    static constexpr int side = 64, places = 50;
+    static constexpr int side = 64, slots = 50;
 
     CachedTiles(const rasterizer::Rect& region, const rasterizer::Rect& frame);
 
     [[nodiscard]] std::size_t count() const noexcept { return static_cast<std::size_t>(across_) * down_; }
     [[nodiscard]] std::uint32_t tile_of(std::uint32_t pixel) const noexcept;
-    [[nodiscard]] std::size_t place_of(std::uint32_t tile) const noexcept;
+    [[nodiscard]] std::size_t slot_of(std::uint32_t tile) const noexcept;
     // True if another tile of the frame uses the same slot.
-    [[nodiscard]] bool is_shared(std::uint32_t tile) const noexcept { return wanted_[place_of(tile)] > 1; }
+    [[nodiscard]] bool is_shared(std::uint32_t tile) const noexcept { return tiles_of_slot_[slot_of(tile)] > 1; }
 
   private:
     rasterizer::Rect region_;
     int x0_, y0_;  // the region's corner, in pixels of the frame
     std::uint32_t across_, down_;
-    std::array<std::uint32_t, places> wanted_{};  // number of tiles per slot
+    std::array<std::uint32_t, slots> tiles_of_slot_{};  // number of tiles per slot
 };
 
 // The storage of a target's codes: one Texels per sample.
@@ -119,13 +119,13 @@ class TileCache {
     void close();
 
   private:
-    void take_place(CachedTarget& target, std::size_t number, std::uint32_t tile);
+    void take_slot(CachedTarget& target, std::size_t number, std::uint32_t tile);
 
     CachedTiles tiles_;
     bool is_frame_;  // true if the region is the whole frame
     std::array<std::optional<CachedTarget>, max_color_targets> targets_;
     static constexpr std::uint32_t no_tile = ~0u;
-    std::array<std::array<std::uint32_t, CachedTiles::places>, max_color_targets> owner_;
+    std::array<std::array<std::uint32_t, CachedTiles::slots>, max_color_targets> owner_;
 };
 
 }  // namespace strata::pipeline

@@ -23,7 +23,7 @@ struct ProgramCall {
     const PassState& state;
     PassKind kind{};
     FragmentBatch& in;
-    const Loads& own;
+    const Loads& loads;
     Outputs& out;
 };
 

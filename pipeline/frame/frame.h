@@ -42,9 +42,9 @@ struct Frame {
     Formulation formulation = Formulation::resolved;
     int max_passes = 0;  // limit of geometry passes; 0: none
     Effects effects = Effects::needed;
-    bool alike_where_blank = false;  // a promise: in a tile without triangles the body's result depends on the tile's
-                                     // size but not on its position
-    bool needs_frame = false;        // texture lookups may reach any pixel: always runs literally
+    bool blank_tiles_are_equal = false;   // a promise: in a tile without triangles the body's result depends on the
+                                          // tile's size but not on its position
+    bool needs_frame = false;             // texture lookups may reach any pixel: always runs literally
     const ShadowStage* shadow = nullptr;  // for lists that receive a shadow (pipeline/textures/shadow_stage.h)
     Replay replay;
     bool keep_layers = false;

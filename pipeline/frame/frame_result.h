@@ -22,7 +22,7 @@ struct Work {                     // work actually done; may depend on the execu
 struct FrameResult {
     Image color;
     Image depth;  // nearest visible key, if requested
-    std::vector<KeptLayer> layers;
+    std::vector<PeeledLayer> layers;
     int iterations = 0;
     PassCount passes;
     std::optional<Counters> counters;  // only from literal execution

@@ -85,8 +85,8 @@ struct Outputs {
 
 // Called with a batch in which no pixel occurs twice. In full-screen passes only `pixel`, `x`, `y` and `count` are set.
 template <class P>
-concept FragmentProgram = requires(P& p, const FragmentBatch& in, const Loads& own, Outputs& out) {
-    p(in, own, out);
+concept FragmentProgram = requires(P& p, const FragmentBatch& in, const Loads& loads, Outputs& out) {
+    p(in, loads, out);
 };
 
 // A query's count in one region. It cannot be read, because a tile's count is not the frame's. Region::any turns it
@@ -115,7 +115,7 @@ enum class Idle : std::uint8_t {
 // A pass's depth test in one region: to be executed, or known to pass for every fragment whatever its depth.
 enum class DepthOutcome : std::uint8_t { open, passes };
 
-struct Drawn {
+struct DrawCounts {
     Count passed;   // fragments alive after stencil and depth tests (each sample of the mask counts as one)
     Count tallied;  // Outputs::tally
 };

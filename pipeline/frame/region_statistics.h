@@ -31,7 +31,7 @@ struct LoopStatistics {
 // The answers to the queries of every loop.
 using Answers = std::vector<std::vector<bool>>;
 
-struct KeptLayer {
+struct PeeledLayer {
     Image color, depth;       // of the region's rectangle
     Side side = Side::front;  // the end from which the peel took it
 };
@@ -76,7 +76,7 @@ struct RegionStatistics {
     std::vector<int> passes_before;
     int iterations = 0;  // of all loops
     Target published;    // the final colour of the body
-    std::vector<KeptLayer> layers;
+    std::vector<PeeledLayer> layers;
     std::size_t idle_layers =
         0;  // number of last entries of `layers` that were kept after the loop became idle; they are empty
     std::vector<Diagnostic> diagnostics;

@@ -19,7 +19,7 @@
 namespace strata::pipeline {
 
 // The fragments of its interval that decide the result of a pass at a pixel.
-enum class Keeps : std::uint8_t {
+enum class KeptFragments : std::uint8_t {
     everything,  // no selection: every fragment is visited
     nearest,     // the first submitted with the least key: for a depth test LESS with a write, no blending, no stencil
     interval,    // all of the interval, in submission order, for any tests
@@ -45,7 +45,7 @@ struct KeyBound {
     friend bool operator==(const KeyBound&, const KeyBound&) = default;
 };
 struct FragmentSelection {
-    Keeps keeps = Keeps::everything;
+    KeptFragments keeps = KeptFragments::everything;
     Outside outside = Outside::dies;
     KeyBound near{};                      // keys greater than this
     std::array<KeyBound, 2> far{};        // keys less than each of these

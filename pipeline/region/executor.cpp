@@ -28,13 +28,14 @@ struct RegionRun {
 class FrameRun {
   public:
     FrameRun(const Frame& frame, const Body& body, Execution execution, int threads,
-             const std::function<void(double)>& progress, const Instruments& instruments, const Watch& watch)
+             const std::function<void(double)>& progress, const Instruments& instruments,
+             const RegionCallbacks& callbacks)
         : frame_{frame},
           body_{body},
           threads_{threads},
           progress_{progress},
           instruments_{instruments},
-          watch_{watch},
+          callbacks_{callbacks},
           extent_{execution == Execution::literal ? Extent::frame : Extent::tile} {
         areas_ = extent_ == Extent::frame ? std::vector<RegionArea>{{frame.rect(), 0, Extent::frame}}
                                           : tile_parts(frame, threads);
@@ -49,7 +50,7 @@ class FrameRun {
     }
 
     FrameResult finish() {
-        if (watch_.begun) watch_.begun(areas_);
+        if (callbacks_.begun) callbacks_.begun(areas_);
         const std::vector<std::size_t> others = run_one_blank_of_each_size();
         parallel_for(others.size(), threads_, [&](std::size_t i) {
             if (look_alike_[others[i]] == no_look_alike)
@@ -81,7 +82,7 @@ class FrameRun {
         const auto is_empty = [&](const PreparedDraw* list) {
             return list == nullptr || list->geometry.bin(areas_[r].tile).empty();
         };
-        return extent_ == Extent::tile && frame_.effects == Effects::needed && frame_.alike_where_blank &&
+        return extent_ == Extent::tile && frame_.effects == Effects::needed && frame_.blank_tiles_are_equal &&
                is_empty(frame_.transparent) && is_empty(frame_.second) && is_empty(frame_.opaque);
     }
 
@@ -116,7 +117,7 @@ class FrameRun {
         regions_[r] = regions_[look_alike_[r]];
         regions_[r].fragments = regions_[r].statistics.fragments_processed = 0;
         copy(look_alike_[r], r, result_.color);
-        if (watch_.alike) watch_.alike(look_alike_[r], r);
+        if (callbacks_.alike) callbacks_.alike(look_alike_[r], r);
         show(r);
         if (frame_.nearest_depth) copy(look_alike_[r], r, result_.depth);
     }
@@ -165,7 +166,7 @@ class FrameRun {
         kept.statistics = std::move(statistics);
         ++kept.runs;
         const Clock::time_point ended = Clock::now();
-        if (watch_.ended) watch_.ended(region, r, result_.color);
+        if (callbacks_.ended) callbacks_.ended(region, r, result_.color);
         time_in_bodies_ += (ended - start).count();
         time_in_watch_ += (Clock::now() - ended).count();
         show(r);
@@ -317,11 +318,11 @@ class FrameRun {
             layer_count = std::max(layer_count, r.layers.size() - r.idle_layers);
         const rasterizer::Rect whole = frame_.rect();
         for (std::size_t layer = 0; layer < layer_count; ++layer) {
-            KeptLayer kept;
+            PeeledLayer kept;
             for (std::size_t r = 0; r < regions_.size(); ++r) {
-                std::vector<KeptLayer>& layers = regions_[r].statistics.layers;
+                std::vector<PeeledLayer>& layers = regions_[r].statistics.layers;
                 if (layer + regions_[r].statistics.idle_layers < layers.size()) kept.side = layers[layer].side;
-                const KeptLayer& part = layers[std::min(layer, layers.size() - 1)];
+                const PeeledLayer& part = layers[std::min(layer, layers.size() - 1)];
                 if (kept.color.codes.empty()) {
                     kept.color = Image::for_overwrite(part.color.format, whole.width(), whole.height());
                     kept.depth = Image::for_overwrite(part.depth.format, whole.width(), whole.height());
@@ -341,7 +342,7 @@ class FrameRun {
     int threads_;
     const std::function<void(double)>& progress_;
     Instruments instruments_;
-    const Watch& watch_;
+    const RegionCallbacks& callbacks_;
     Extent extent_;
     RegionScratchPool scratch_;
     std::vector<RegionArea> areas_;
@@ -359,12 +360,13 @@ class FrameRun {
 }  // namespace
 
 FrameResult run(const Frame& frame, const Body& body, Execution execution, int threads,
-                const std::function<void(double)>& progress, const Instruments& instruments, const Watch& watch) {
+                const std::function<void(double)>& progress, const Instruments& instruments,
+                const RegionCallbacks& callbacks) {
     const FloatEnvironment ours;
     // A run that times one additional effect rasterizes in every pass, because recorded fragments would skip the
     // effect.
     const auto run_as = [&](const Frame& given, Execution way) {
-        return FrameRun{given, body, way, threads, progress, instruments, watch}.finish();
+        return FrameRun{given, body, way, threads, progress, instruments, callbacks}.finish();
     };
     Frame rasterized = frame;  // without replay: rasterizes in every pass
     rasterized.replay = {};

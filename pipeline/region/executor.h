@@ -5,8 +5,8 @@
 //          decided otherwise and the tile was not idle. Within the limit of fragment memory, a tile rasterizes its
 //          transparent list once (region_source.cpp); without memory every pass rasterizes. Of all tiles without
 //          triangles, one of each size runs for the others of that size, if the frame promises that their results are
-//          equal (Frame::alike_where_blank). Counters are those of literal execution. A frame that needs to be whole
-//          (Frame::needs_frame, or a lookup that leaves its region) runs literally, whatever was requested.
+//          equal (Frame::blank_tiles_are_equal). Counters are those of literal execution. A frame that needs to be
+//          whole (Frame::needs_frame, or a lookup that leaves its region) runs literally, whatever was requested.
 // Source   pipeline/reference/execution.md 4, 5 and 8.
 // Tests    tests/peeling/execution_test.cpp
 #pragma once
@@ -27,7 +27,7 @@ using Body = std::function<void(Region&)>;  // called once per region, never per
 
 // Inspects regions while their targets and traces exist, from any thread. If a region runs again, it is inspected again
 // and the earlier result is void; if the frame runs again as a whole, all earlier results are void.
-struct Watch {
+struct RegionCallbacks {
     // The regions that will run: tiles and parts of tiles, or the frame. The other functions refer to them by index.
     std::function<void(std::span<const RegionArea>)> begun{};
     // Region `region` has ended, and its part of `color` is written.
@@ -39,6 +39,6 @@ struct Watch {
 // `progress`, unless empty, is called occasionally with the fraction done, from any thread.
 [[nodiscard]] FrameResult run(const Frame& frame, const Body& body, Execution execution, int threads,
                               const std::function<void(double)>& progress = {}, const Instruments& instruments = {},
-                              const Watch& watch = {});
+                              const RegionCallbacks& callbacks = {});
 
 }  // namespace strata::pipeline

@@ -31,7 +31,7 @@ class FragmentPathProgram {
     // Adds to `state` the values that the program reads, the depth targets that it samples, and whether it replaces
     // depth.
     void apply(PassState& state) const;
-    void operator()(const FragmentBatch& in, const Loads& own, Outputs& out);
+    void operator()(const FragmentBatch& in, const Loads& loads, Outputs& out);
 
   private:
     FragmentPath path_;

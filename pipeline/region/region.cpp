@@ -37,11 +37,11 @@ void RegionShared::report(Fault fault, std::uint64_t pixels, std::uint32_t first
 }
 
 // The trace is empty after the opaque scene.
-Region::Region(const Frame& frame, const RegionArea& place, RegionStatistics& statistics,
-               const Instruments& instruments, RegionScratchPool* pool)
+Region::Region(const Frame& frame, const RegionArea& area, RegionStatistics& statistics, const Instruments& instruments,
+               RegionScratchPool* pool)
     : pool_{pool},
       scratch_{pool == nullptr ? std::make_unique<RegionScratch>() : pool->take()},
-      shared_{frame, place, statistics, instruments, *scratch_, *this},
+      shared_{frame, area, statistics, instruments, *scratch_, *this},
       targets_{shared_},
       stages_{shared_, targets_},
       source_{shared_, targets_, stages_},
@@ -50,7 +50,7 @@ Region::Region(const Frame& frame, const RegionArea& place, RegionStatistics& st
     if (instruments.samples.group != nullptr)
         instruments.samples.group->set_targets(instruments.samples.sample, targets_);
     const bool is_empty =
-        frame.opaque == nullptr || (!shared_.is_frame() && frame.opaque->geometry.bin(place.tile).empty());
+        frame.opaque == nullptr || (!shared_.is_frame() && frame.opaque->geometry.bin(area.tile).empty());
     if (!is_empty) draw_opaque();
 }
 
@@ -71,7 +71,7 @@ void copy_color(Region& region, Target from, Target to) {
     state.color[0] = to;
     state.reads[0] = from;
     static_cast<void>(region.full_screen(
-        state, [](const FragmentBatch&, const Loads& own, Outputs& out) { out.color[0] = own.color(0); }));
+        state, [](const FragmentBatch&, const Loads& loads, Outputs& out) { out.color[0] = loads.color(0); }));
 }
 
 void Region::publish(Target color) {
@@ -92,7 +92,7 @@ PassState Region::altered(const PassState& state, PassKind kind) {
     return changed;
 }
 
-void Region::end_pass(const PassState& state, PassKind kind, const Drawn& drawn) {
+void Region::end_pass(const PassState& state, PassKind kind, const DrawCounts& drawn) {
     stages_.close_cache();
     stages_.meet_samples(state);
     if (const Alteration* a = shared_.alteration(); a != nullptr && a->drawn) a->drawn(kind, drawn.passed.own_);
@@ -114,30 +114,30 @@ void Region::draw_opaque() {
     });
 }
 
-Drawn Region::draw_depth(const PassState& state) {
+DrawCounts Region::draw_depth(const PassState& state) {
     if (!source_.depth_suits_rows(state)) return draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {});
-    Drawn drawn;
+    DrawCounts drawn;
     drawn.passed.own_ = source_.draw_depth_rows(state).passed;
     return drawn;
 }
 
-Drawn Region::draw_sums(const PassState& state) {
+DrawCounts Region::draw_sums(const PassState& state) {
     if (!source_.sums_suit_rows(state))
         return draw(state, [&](const FragmentBatch& in, const Loads&, Outputs& out) { leave_terms(state, in, out); });
-    Drawn drawn;
+    DrawCounts drawn;
     drawn.passed.own_ = source_.draw_sum_rows(state).passed;
     return drawn;
 }
 
 // Runs both versions from the same targets and compares. The result is that of visiting every fragment, the definition.
 // A program that writes elsewhere than to its outputs does so twice.
-Drawn Region::checked(const std::function<Drawn()>& quick, const std::function<Drawn()>& definition) {
+DrawCounts Region::checked(const std::function<DrawCounts()>& quick, const std::function<DrawCounts()>& definition) {
     std::vector<TargetStorage> targets = targets_.all();
     const std::size_t traced = scratch_->trace.size();
     const Count quick_passed = quick().passed;
     std::swap(targets_.all(), targets);  // `targets` then has the result of the optimized version
     scratch_->trace.shorten(traced);
-    const Drawn drawn = definition();
+    const DrawCounts drawn = definition();
     if ((quick_passed.own_ > 0) != (drawn.passed.own_ > 0))
         throw std::logic_error("pass state: what a pass promises differs from its program in what it answers a query");
     targets_.require_equal(targets);

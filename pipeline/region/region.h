@@ -28,7 +28,7 @@ class RegionScratchPool;
 class Region {
   public:
     // `pool`: lends the region its arrays; null: the region allocates its own.
-    Region(const Frame& frame, const RegionArea& place, RegionStatistics& statistics,
+    Region(const Frame& frame, const RegionArea& area, RegionStatistics& statistics,
            const Instruments& instruments = {}, RegionScratchPool* pool = nullptr);
     Region(const Region&) = delete;
     Region& operator=(const Region&) = delete;
@@ -60,22 +60,22 @@ class Region {
 
     // One geometry pass over the transparent list, or over the part of it in `state.primitives`.
     template <FragmentProgram P>
-    Drawn draw(const PassState& state, P&& program) {
+    DrawCounts draw(const PassState& state, P&& program) {
         return draw(state, *frame().transparent, program);
     }
     // One geometry pass over a list of the frame, or over another list; the latter only if the frame is a single region
     // (surface.h).
     template <FragmentProgram P>
-    Drawn draw(const PassState& state, const PreparedDraw& list, P&& program);
+    DrawCounts draw(const PassState& state, const PreparedDraw& list, P&& program);
     // One geometry pass that tests and writes depth, without a program or colours; written directly to the target if
     // possible.
-    Drawn draw_depth(const PassState& state);
+    DrawCounts draw_depth(const PassState& state);
     // One geometry pass whose program outputs (c a, a) of every fragment to color[0], and 1 to each further target;
     // added directly to the targets if `state` adds them and does nothing else with them.
-    Drawn draw_sums(const PassState& state);
+    DrawCounts draw_sums(const PassState& state);
     // A screen-aligned quad: one fragment at every pixel of the region.
     template <FragmentProgram P>
-    Drawn full_screen(const PassState& state, P&& program);
+    DrawCounts full_screen(const PassState& state, P&& program);
 
     // The frame's answer to "is the count above the limit of --termination?". Idle::yes is for the query that ends the
     // loop, the last call of an iteration: the region may stop there. A query that only selects a branch within the
@@ -108,14 +108,14 @@ class Region {
 
     void draw_opaque();
     [[nodiscard]] PassState altered(const PassState& state, PassKind kind);
-    void end_pass(const PassState& state, PassKind kind, const Drawn& drawn);
+    void end_pass(const PassState& state, PassKind kind, const DrawCounts& drawn);
     template <FragmentProgram P>
-    Drawn draw_everything(const PassState& state, const PreparedDraw& list, P& program);
+    DrawCounts draw_everything(const PassState& state, const PreparedDraw& list, P& program);
     template <FragmentProgram P>
-    Drawn draw_visits(const PassState& state, P& program);
+    DrawCounts draw_visits(const PassState& state, P& program);
     template <class P>
-    void run_batch(const PassState& state, P& program, FragmentBatch& batch, Outputs& out, Drawn& drawn);
-    Drawn checked(const std::function<Drawn()>& quick, const std::function<Drawn()>& definition);
+    void run_batch(const PassState& state, P& program, FragmentBatch& batch, Outputs& out, DrawCounts& drawn);
+    DrawCounts checked(const std::function<DrawCounts()>& quick, const std::function<DrawCounts()>& definition);
 
     RegionScratchPool* pool_;
     std::unique_ptr<RegionScratch> scratch_;
@@ -130,11 +130,11 @@ class Region {
 void copy_color(Region& region, Target from, Target to);
 
 template <FragmentProgram P>
-Drawn Region::draw(const PassState& given, const PreparedDraw& list, P&& program) {
+DrawCounts Region::draw(const PassState& given, const PreparedDraw& list, P&& program) {
     const PassState state = altered(given, PassKind::geometry);
     stages_.begin_pass(state, PassKind::geometry);
     stages_.meet_samples(state);
-    if (state.selection.keeps == Keeps::everything || !source_.find_fragments(state, list))
+    if (state.selection.keeps == KeptFragments::everything || !source_.find_fragments(state, list))
         return draw_everything(state, list, program);
     return shared_.instruments.check_selections ? checked([&] { return draw_visits(state, program); },
                                                           [&] { return draw_everything(state, list, program); })
@@ -142,8 +142,8 @@ Drawn Region::draw(const PassState& given, const PreparedDraw& list, P&& program
 }
 
 template <FragmentProgram P>
-Drawn Region::draw_everything(const PassState& state, const PreparedDraw& list, P& program) {
-    Drawn drawn;
+DrawCounts Region::draw_everything(const PassState& state, const PreparedDraw& list, P& program) {
+    DrawCounts drawn;
     auto sink = [&](FragmentBatch& batch) {
         Outputs& out = stages_.start_batch(batch);
         if (!source_.reads_record()) stages_.shade(list, batch, out);
@@ -157,11 +157,11 @@ Drawn Region::draw_everything(const PassState& state, const PreparedDraw& list, 
 }
 
 template <FragmentProgram P>
-Drawn Region::draw_visits(const PassState& state, P& program) {
-    const bool is_routed = state.selection.keeps == Keeps::submitted;
+DrawCounts Region::draw_visits(const PassState& state, P& program) {
+    const bool is_routed = state.selection.keeps == KeptFragments::submitted;
     if (is_routed) source_.route_submitted(state);
     stages_.open_cache(state);
-    Drawn drawn;
+    DrawCounts drawn;
     PassState drawn_to = state;
     while (FragmentBatch* const batch = source_.next_visit(state)) {
         if (is_routed) drawn_to.sample_mask = static_cast<std::uint8_t>(1u << source_.wave());
@@ -175,12 +175,12 @@ Drawn Region::draw_visits(const PassState& state, P& program) {
 }
 
 template <FragmentProgram P>
-Drawn Region::full_screen(const PassState& given, P&& program) {
+DrawCounts Region::full_screen(const PassState& given, P&& program) {
     const PassState state = altered(given, PassKind::full_screen);
     stages_.begin_pass(state, PassKind::full_screen);
     stages_.meet_samples(state);
     stages_.open_cache(state);
-    Drawn drawn;
+    DrawCounts drawn;
     std::size_t next = 0;
     while (FragmentBatch* const batch = stages_.next_screen_batch(next))
         run_batch(state, program, *batch, stages_.start_batch(*batch), drawn);
@@ -189,7 +189,7 @@ Drawn Region::full_screen(const PassState& given, P&& program) {
 }
 
 template <class P>
-void Region::run_batch(const PassState& state, P& program, FragmentBatch& batch, Outputs& out, Drawn& drawn) {
+void Region::run_batch(const PassState& state, P& program, FragmentBatch& batch, Outputs& out, DrawCounts& drawn) {
     stages_.load(state, batch);
     const auto run = [&] { program(static_cast<const FragmentBatch&>(batch), stages_.loads(), out); };
     stages_.run_program(state, batch, out, std::ref(run));
@@ -199,7 +199,7 @@ void Region::run_batch(const PassState& state, P& program, FragmentBatch& batch,
 template <FragmentProgram P>
 void Region::trace_pixels(Target read, P&& program) {
     if (!frame().trace) return;
-    stages_.begin_look();
+    stages_.begin_query();
     PassState state;
     state.reads[0] = read;
     const UncountedWork look{shared_.statistics};

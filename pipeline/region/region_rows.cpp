@@ -53,7 +53,7 @@ rasterizer::DepthDrawn Source::draw_depth_rows(const PassState& state) {
     const rasterizer::Geometry& geometry = shared_.frame.transparent->geometry;
     stages_.begin_pass(state, PassKind::geometry);
     const rasterizer::DepthDrawn rows =
-        rasterizer::draw_depth_rows(geometry, geometry.bin(shared_.place.tile), shared_.frame.key_request(),
+        rasterizer::draw_depth_rows(geometry, geometry.bin(shared_.area.tile), shared_.frame.key_request(),
                                     shared_.rect(), targets_.at(state.depth_target).depth_plane(0).words);
     shared_.statistics.fragments_drawn += rows.fragments;
     return rows;
@@ -84,7 +84,7 @@ rasterizer::DepthDrawn Source::draw_sum_rows(const PassState& state) {
     const PreparedDraw& list = *shared_.frame.transparent;
     stages_.begin_pass(state, PassKind::geometry);
     // For triangles of few pixels, testing each fragment takes less time than bounding all triangles.
-    const bool has_few_pixels = 4 * list.geometry.bin(shared_.place.tile).size() > shared_.rect().area();
+    const bool has_few_pixels = 4 * list.geometry.bin(shared_.area.tile).size() > shared_.rect().area();
     const bool is_open = has_few_pixels || depth_outcome(state, list) == DepthOutcome::open;
     const bool has_count_target = state.color[1].exists();
     const Texels sums = targets_.at(state.color[0]).texels(0);
@@ -94,7 +94,7 @@ rasterizer::DepthDrawn Source::draw_sum_rows(const PassState& state) {
                      is_open ? targets_.at(state.depth_target).depth_plane(0).words : nullptr,
                      shared_.profile().denormals == DenormalRule::flush};
     for (std::size_t word = 0; word < sums.words(); ++word) planes.sums[word] = sums.plane(word).words;
-    const rasterizer::DepthDrawn rows = add_sum_rows(list.geometry, list.geometry.bin(shared_.place.tile),
+    const rasterizer::DepthDrawn rows = add_sum_rows(list.geometry, list.geometry.bin(shared_.area.tile),
                                                      shared_.frame.key_request(), shared_.rect(), planes);
     shared_.statistics.fragments_drawn += rows.fragments;
     return rows;

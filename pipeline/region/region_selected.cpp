@@ -30,19 +30,19 @@ bool routes_submitted(const PassState& state) {
            state.depth == DepthTest{.enabled = true, .func = CompareFunc::always, .write = true};
 }
 
-// True if the pass's tests are those that its Keeps requires.
+// True if the pass's tests are those that its KeptFragments requires.
 bool has_tests_of_its_kind(const PassState& state, int samples) {
     constexpr DepthTest leaves_the_nearest{.enabled = true, .func = CompareFunc::less, .write = true};
     const bool is_plain = samples == 1 && (state.sample_mask & 1u) != 0 && !state.stencil.enabled;
     const bool is_untested = is_plain && !state.depth.enabled && !state.alpha.enabled && state.depth_unit_count == 0;
     switch (state.selection.keeps) {
-        case Keeps::nearest:
+        case KeptFragments::nearest:
             return is_plain && !state.ordered_rmw && state.depth == leaves_the_nearest &&
                    std::ranges::none_of(state.blend, &Blend::enabled);
-        case Keeps::ends: return is_untested && !state.ordered_rmw;
-        case Keeps::interval: return state.selection.outside == Outside::dies || is_untested;
-        case Keeps::submitted: return routes_submitted(state);
-        case Keeps::everything: break;
+        case KeptFragments::ends: return is_untested && !state.ordered_rmw;
+        case KeptFragments::interval: return state.selection.outside == Outside::dies || is_untested;
+        case KeptFragments::submitted: return routes_submitted(state);
+        case KeptFragments::everything: break;
     }
     return false;
 }
@@ -56,7 +56,7 @@ bool bounds_suit(const PassState& state, DepthKey key) {
     const bool is_compared = selection.compared && (selection.near.exists() || selection.range.exists());
     const bool is_behind = !is_compared || (!selection.near.includes && state.needs.reference);
     return is_behind && (!selection.range.exists() || key == DepthKey::shader_z) &&
-           (!has_values || (key == DepthKey::stored_code && selection.keeps == Keeps::interval));
+           (!has_values || (key == DepthKey::stored_code && selection.keeps == KeptFragments::interval));
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ bool Source::find_fragments(const PassState& state, const PreparedDraw& list) {
     const FragmentSelection& selection = state.selection;
     const bool is_plain_run =
         may_record(list) && !shared_.instruments.log_passes && shared_.frame.termination.rule != TerminationRule::ratio;
-    const bool tests_codes = state.depth.enabled && selection.keeps != Keeps::interval;
+    const bool tests_codes = state.depth.enabled && selection.keeps != KeptFragments::interval;
     if (!is_plain_run || state.replaces_depth || !has_tests_of_its_kind(state, stages_.samples()) ||
         (tests_codes && shared_.frame.key != DepthKey::stored_code) || !bounds_suit(state, shared_.frame.key) ||
         !targets_.has_ordered_surface())
@@ -75,7 +75,7 @@ bool Source::find_fragments(const PassState& state, const PreparedDraw& list) {
     kept.texcoord = state.needs.texcoord;
     kept.units = state.needs.units;
     if (!record(list, kept) || !sort_for(state)) return false;
-    const bool has_order = selection.keeps == Keeps::ends || selection.outside == Outside::writes_alike;
+    const bool has_order = selection.keeps == KeptFragments::ends || selection.outside == Outside::writes_alike;
     const bool is_float = std::ranges::any_of(
         state.color, [&](Target t) { return t.exists() && info(targets_.at(t).format()).type != ChannelType::unorm8; });
     if (has_order && is_float && state.needs.color && !shared_.scratch.fragments.has_plain_colors()) return false;
@@ -89,9 +89,9 @@ bool Source::find_fragments(const PassState& state, const PreparedDraw& list) {
 bool Source::sort_for(const PassState& state) {
     SortRequest request{.key = shared_.frame.key,
                         .is_float = shared_.frame.key_request().format == DepthFormat::d32f,
-                        .by_submission = state.selection.keeps == Keeps::submitted,
+                        .by_submission = state.selection.keeps == KeptFragments::submitted,
                         .primitives = {state.primitives.begin(), state.primitives.end()}};
-    if (state.alpha.enabled && state.selection.keeps == Keeps::nearest) {
+    if (state.alpha.enabled && state.selection.keeps == KeptFragments::nearest) {
         request.alpha = state.alpha;
         const ChannelType type =
             state.color[0].exists() ? info(targets_.at(state.color[0]).format()).type : ChannelType::unorm8;
@@ -111,11 +111,11 @@ KeyIntervals Source::intervals_of(const FragmentSelection& s) const {
         if (!bound.exists()) return BoundPlane{};
         const TargetStorage& from = targets_.at(bound.target);
         const bool is_value = bound.channel >= 0;
-        const auto holds = is_value                                  ? BoundPlane::Holds::values
-                           : shared_.frame.key == DepthKey::shader_z ? BoundPlane::Holds::depths
-                                                                     : BoundPlane::Holds::codes;
+        const auto contents = is_value                                  ? BoundPlane::Contents::values
+                              : shared_.frame.key == DepthKey::shader_z ? BoundPlane::Contents::depths
+                                                                        : BoundPlane::Contents::codes;
         const auto channel = static_cast<std::size_t>(is_value ? bound.channel : 0);
-        return BoundPlane{from.texels(0).plane(channel).words, bound.includes, holds,
+        return BoundPlane{from.texels(0).plane(channel).words, bound.includes, contents,
                           shared_.frame.key_request().format};
     };
     KeyIntervals intervals{.near = plane(s.near),
@@ -137,7 +137,7 @@ bool Source::find_kept(const PassState& state) {
     const StoredCodes stored{targets_.codes_of(state.depth_target),
                              state.depth_target.exists() && targets_.at(state.depth_target).format() == Format::d32f};
     switch (selection.keeps) {
-        case Keeps::nearest:
+        case KeptFragments::nearest:
             if (selection.compared && selection.near.exists())
                 find_nearest_behind(s.sorted, s.fragments, *selection.compared,
                                     {.far = intervals.far, .least = intervals.least, .end = intervals.end},
@@ -145,15 +145,15 @@ bool Source::find_kept(const PassState& state) {
             else
                 find_nearest(s.sorted, intervals, stored, s.waves);
             return true;
-        case Keeps::interval: return find_intervals(s.sorted, intervals, s.waves);
-        case Keeps::ends:
+        case KeptFragments::interval: return find_intervals(s.sorted, intervals, s.waves);
+        case KeptFragments::ends:
             if (selection.compared && selection.range.exists())
                 find_ends_compared(s.sorted, s.fragments, *selection.compared, intervals, one_outside, s.waves);
             else
                 find_ends(s.sorted, intervals, one_outside, s.waves);
             return true;
-        case Keeps::submitted: return waits_in_order(state) && (find_submitted(state), true);
-        case Keeps::everything: break;
+        case KeptFragments::submitted: return waits_in_order(state) && (find_submitted(state), true);
+        case KeptFragments::everything: break;
     }
     return false;
 }

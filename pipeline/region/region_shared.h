@@ -23,16 +23,16 @@ struct RegionScratch;
 
 struct RegionShared {
     const Frame& frame;
-    RegionArea place;
+    RegionArea area;
     RegionStatistics& statistics;
     Instruments instruments;
     RegionScratch& scratch;  // the arrays through which a batch passes
     Region& region;          // for observers and alterations of its steps
 
     [[nodiscard]] const DeviceProfile& profile() const noexcept { return *frame.profile; }
-    [[nodiscard]] rasterizer::Rect rect() const noexcept { return place.rect; }
+    [[nodiscard]] rasterizer::Rect rect() const noexcept { return area.rect; }
     // Literal execution: the frame is one region.
-    [[nodiscard]] bool is_frame() const noexcept { return place.extent == Extent::frame; }
+    [[nodiscard]] bool is_frame() const noexcept { return area.extent == Extent::frame; }
     // True if depths outside the depth range have codes (rasterizer/reference/depth.md 2.9).
     [[nodiscard]] bool wraps_depths() const noexcept {
         return profile().raster.depth_limits == rasterizer::DepthLimits::wrap;

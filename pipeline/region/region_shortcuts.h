@@ -34,7 +34,7 @@ class RegionShortcuts {
     // Calls program(batch, outputs) for the list's fragments in `band`, a part of this region, after MASK; `pixel` is
     // relative to the band, row by row. Stops once the program returns false, and then returns false.
     template <class P>
-    [[nodiscard]] bool look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program);
+    [[nodiscard]] bool visit_batches(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program);
     // The tile's fragments of the list, with the values that `needs` names; empty if that is not recorded or not
     // sortable.
     [[nodiscard]] std::optional<SortedRecord> sorted_record(const rasterizer::FragmentNeeds& needs);
@@ -79,7 +79,7 @@ class RegionShortcuts {
 };
 
 template <class P>
-bool RegionShortcuts::look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program) {
+bool RegionShortcuts::visit_batches(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program) {
     const UncountedWork look{region_.shared_.statistics};
     bool goes_on = true;
     auto sink = [&](FragmentBatch& batch) {

@@ -31,14 +31,14 @@ const MaterialNeeds& Source::needs_of_tile(const PreparedDraw& list) {
     const bool is_transparent = &list == shared_.frame.transparent, is_opaque = &list == shared_.frame.opaque;
     if (shared_.is_frame() || list.needs == MaterialNeeds{} || !(is_transparent || is_opaque)) return list.needs;
     auto& needs = is_transparent ? transparent_needs_ : opaque_needs_;
-    if (!needs) needs = needs_of(list, list.geometry.bin(shared_.place.tile));
+    if (!needs) needs = needs_of(list, list.geometry.bin(shared_.area.tile));
     return *needs;
 }
 
 // Indices of the triangles that may touch the region, in submission order.
 std::span<const std::uint32_t> Source::triangles_of(const PreparedDraw& list) const noexcept {
     return shared_.is_frame() ? std::span<const std::uint32_t>{list.geometry.all_triangles}
-                              : list.geometry.bin(shared_.place.tile);
+                              : list.geometry.bin(shared_.area.tile);
 }
 
 // Without ranges all triangles are drawn. Triangles are in submission order, and the pieces of a clipped one have its
@@ -149,7 +149,7 @@ DepthOutcome Source::depth_outcome(const PassState& state, const PreparedDraw& l
     if (!is_plain || !has_bound || shared_.wraps_depths() || state.needs.code || !targets_.opaque_depth_is_cleared() ||
         shared_.is_frame() || shared_.frame.effects == Effects::all || &list != shared_.frame.transparent)
         return DepthOutcome::open;
-    const double bound = depth_bound(list.geometry, list.geometry.bin(shared_.place.tile));
+    const double bound = depth_bound(list.geometry, list.geometry.bin(shared_.area.tile));
     const auto code = [&](float z) { return to_depth_code(z, depth.format, shared_.profile().raster.depth_rounding); };
     return code(static_cast<float>(bound)) < code(1.0f) ? DepthOutcome::passes : DepthOutcome::open;
 }

@@ -265,7 +265,7 @@ void Stages::run_program(const PassState& state, FragmentBatch& batch, Outputs& 
 
 // The alpha test compares 8-bit codes unless target 0 is a float format and the profile decides by the target
 // (fragment-stages.md 3).
-void Stages::finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn) {
+void Stages::finish(const PassState& state, const FragmentBatch& batch, Outputs& out, DrawCounts& drawn) {
     cover_sample(state, batch, out);
     if (state.alpha.enabled) {
         const std::uint64_t before = alive_count(out, batch.count);
@@ -285,7 +285,7 @@ void Stages::finish(const PassState& state, const FragmentBatch& batch, Outputs&
 // Every sample has the same colour and code, but its own tests. Queries count samples; the counter `blended` and the
 // trace use only sample 0 (fragment-stages.md 10.3).
 void Stages::finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
-                           Drawn& drawn) {
+                           DrawCounts& drawn) {
     Lanes<std::uint32_t>& alive = shared_.scratch.alive;
     std::copy_n(out.alive.begin(), batch.count, alive.begin());
     if (state.depth_unit_count > 0) test_depth_units(state, batch, sample, alive);

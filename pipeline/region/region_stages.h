@@ -33,7 +33,7 @@ class Stages {
     void begin_pass(const PassState& state, PassKind kind);
     // Waits for the frames of the other samples, if the pass loads from them.
     void meet_samples(const PassState& state) const;
-    void begin_look() noexcept { kind_ = PassKind::full_screen; }  // for Region::trace_pixels, which is not a pass
+    void begin_query() noexcept { kind_ = PassKind::full_screen; }  // for Region::trace_pixels, which is not a pass
     // Sets what is known about the depth test of this pass, and whether its colours use textures and shadow.
     void set_depth(DepthOutcome outcome) noexcept { depth_ = outcome; }
     void set_material(bool samples_textures, bool takes_shadow) noexcept {
@@ -54,7 +54,7 @@ class Stages {
     [[nodiscard]] const Loads& loads() const noexcept;
     // `program` runs the pass's program over the batch.
     void run_program(const PassState& state, FragmentBatch& batch, Outputs& out, const std::function<void()>& program);
-    void finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn);
+    void finish(const PassState& state, const FragmentBatch& batch, Outputs& out, DrawCounts& drawn);
     void record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive);
     void show(Stage stage, const PassState& state, const FragmentBatch& batch, const Outputs& out,
               const Lanes<std::uint32_t>& alive, int sample = 0) const;
@@ -68,7 +68,7 @@ class Stages {
     // SAMPLE_ALPHA_TO_COVERAGE, SAMPLE_COVERAGE and the sample mask (pipeline/reference/fragment-stages.md 13.6).
     void cover_sample(const PassState& state, const FragmentBatch& batch, Outputs& out);
     void finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
-                       Drawn& drawn);
+                       DrawCounts& drawn);
     std::uint64_t test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
                                          Lanes<std::uint32_t>& alive);  // returns the number that pass
     std::uint64_t test_stencil(const PassState& state, const FragmentBatch& batch, int sample,

@@ -96,7 +96,8 @@ std::uint64_t Stages::test_stencil(const PassState& state, const FragmentBatch& 
                                                     s.stencil_stored.data(), s.saturated.data(), batch.count});
     scatter_codes(stencil, lanes_of(batch), every_lane.data(), 1, &s.stencil_stored);
     shared_.count({.bytes_read = arriving, .bytes_written = arriving});
-    if (state.selection.keeps != Keeps::submitted) report_saturation(batch);  // whose counts are meant to stop at 0
+    if (state.selection.keeps != KeptFragments::submitted)
+        report_saturation(batch);  // whose counts are meant to stop at 0
     return static_cast<std::uint64_t>(killed);
 }
 

@@ -63,7 +63,7 @@ void quantize(const DepthTexels& depth, const rasterizer::RasterRules& rules, co
     const double units = units_of(depth, rules), greatest = value_of(depth, depth.max()) / units;
     auto to = rasterizer::depth_conversion(depth.format, rules.depth_rounding, greatest);
     if (depth.is_eight_bit)
-        to = {rasterizer::CodeKind::fixed, 0.0, greatest, units, cuts(rules.depth_rounding) ? 0.0 : 0.5};
+        to = {rasterizer::CodeKind::fixed, 0.0, greatest, units, truncates(rules.depth_rounding) ? 0.0 : 0.5};
     for (std::size_t i = 0; i < count; ++i) codes[i] = rasterizer::depth_code(double{r[i]}, to);
 }
 

@@ -26,12 +26,14 @@ using Row = std::array<float, 4>;
     return (m[0] * p[0] + m[1] * p[1]) + (m[2] * p[2] + m[3] * p[3]);
 }
 
-[[nodiscard]] float cut_product(float a, float b) { return rasterizer::cut_to_binary32(double{a} * double{b}); }
+[[nodiscard]] float truncated_product(float a, float b) {
+    return rasterizer::truncate_to_binary32(double{a} * double{b});
+}
 
 // The sum is high + low exactly; low is 0 if binary64 can represent the sum.
-[[nodiscard]] float cut_sum(float a, float b) {
+[[nodiscard]] float truncated_sum(float a, float b) {
     const rasterizer::TwoTerms s = rasterizer::two_sum(double{a}, double{b});
-    const float f = rasterizer::cut_to_binary32(s.high);
+    const float f = rasterizer::truncate_to_binary32(s.high);
     // binary64 may have rounded the sum away from zero to a binary32 value: the truncated value is then the next float
     // toward zero.
     const bool is_beyond = double{f} == s.high && s.low != 0.0 && (s.low > 0.0) != (s.high > 0.0);
@@ -39,7 +41,9 @@ using Row = std::array<float, 4>;
 }
 
 [[nodiscard]] float toward_zero(const Row& m, const Vec3& p) {
-    return cut_sum(cut_sum(cut_sum(cut_product(m[0], p[0]), cut_product(m[1], p[1])), cut_product(m[2], p[2])), m[3]);
+    return truncated_sum(truncated_sum(truncated_sum(truncated_product(m[0], p[0]), truncated_product(m[1], p[1])),
+                                       truncated_product(m[2], p[2])),
+                         m[3]);
 }
 
 [[nodiscard]] float nv20(const Row& m, const Vec3& p) {

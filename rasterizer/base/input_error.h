@@ -9,9 +9,10 @@ namespace strata {
 // Thrown only where input enters (files, options, JSON). `main` prints it as one line and exits with status 2.
 struct InputError : std::runtime_error {
     // For a message without a place in the file: "no such file".
-    InputError(const std::string& file, const std::string& sentence) : std::runtime_error(file + ": " + sentence) {}
-    InputError(const std::string& file, const std::string& place, const std::string& expected, const std::string& found)
-        : std::runtime_error(file + ": " + place + ": expected " + expected + ", found " + found) {}
+    InputError(const std::string& file, const std::string& message) : std::runtime_error(file + ": " + message) {}
+    InputError(const std::string& file, const std::string& location, const std::string& expected,
+               const std::string& found)
+        : std::runtime_error(file + ": " + location + ": expected " + expected + ", found " + found) {}
 };
 
 }  // namespace strata

@@ -23,7 +23,7 @@ namespace strata::rasterizer {
 inline namespace strict {
 
 // Rounds v toward zero to binary32; overflow gives the largest finite value of the same sign.
-[[nodiscard]] constexpr float cut_to_binary32(double v) noexcept {
+[[nodiscard]] constexpr float truncate_to_binary32(double v) noexcept {
     const auto f = static_cast<float>(v);
     const double size = v < 0.0 ? -v : v, rounded = f < 0.0f ? -double{f} : double{f};
     return rounded > size ? std::bit_cast<float>(std::bit_cast<std::uint32_t>(f) - 1) : f;
@@ -43,7 +43,7 @@ namespace nv20 {
 // a b; +0 if a factor is zero or denormal, even if the other is infinite or NaN (numbers.md 4.2).
 [[nodiscard]] constexpr float multiply(float a, float b) noexcept {
     if (flushed(a) == 0.0f || flushed(b) == 0.0f) return 0.0f;
-    return is_finite(a) && is_finite(b) ? flushed(cut_to_binary32(double{a} * double{b})) : a * b;
+    return is_finite(a) && is_finite(b) ? flushed(truncate_to_binary32(double{a} * double{b})) : a * b;
 }
 
 // Sums two to four values with one alignment and one truncation, as the dot product does (numbers.md 4.3). If any value
@@ -73,7 +73,7 @@ template <std::size_t n>
     // The total fits in 31 bits and the unit is at least 2^-154, so the conversion and the product are exact in
     // binary64.
     const double unit = std::bit_cast<double>(static_cast<std::uint64_t>(largest - 127 - 28 + 1023) << 52);
-    return flushed(cut_to_binary32(static_cast<double>(total) * unit));
+    return flushed(truncate_to_binary32(static_cast<double>(total) * unit));
 }
 
 // 1 / d (numbers.md 4.4). A zero or denormal d gives an infinity of its sign, an infinity gives +0, NaN is returned

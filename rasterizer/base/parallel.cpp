@@ -51,10 +51,10 @@ class Supply {
         const int workers = available_threads(threads - 1, stack);
         if (workers == threads - 1) return proven_.store(threads, std::memory_order_release);
         // One less than was granted: oneTBB needs memory of its own in addition to the stacks.
-        const int had = std::max<int>(proven_, std::max(workers - 1, 0) + 1);
+        const int available = std::max<int>(proven_, std::max(workers - 1, 0) + 1);
         asked_ = threads;
-        refused_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(had));
-        proven_.store(had, std::memory_order_release);
+        refused_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(available));
+        proven_.store(available, std::memory_order_release);
     }
 
     std::mutex mutex_;
@@ -129,7 +129,7 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
         body(i);
     };
     if (threads != 1 && count > 1)
-        if (const int had = threads_of(thread_count(threads)); had > 1) return loop(count, had, call);
+        if (const int available = threads_of(thread_count(threads)); available > 1) return loop(count, available, call);
     for (std::size_t i = 0; i < count; ++i) call(i);
 }
 

@@ -15,10 +15,10 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
 // The number of threads that the argument `threads` of parallel_for means.
 [[nodiscard]] int thread_count(int threads) noexcept;
 
-// Set if the system refused to start the `asked` threads that a loop requested: later loops of this process use `had`
-// threads. Both are 0 if that never happened.
+// Set if the system refused to start the `requested` threads that a loop requested: later loops of this process use
+// `available` threads. Both are 0 if that never happened.
 struct ThreadShortage {
-    int asked = 0, had = 0;
+    int requested = 0, available = 0;
 };
 [[nodiscard]] ThreadShortage thread_shortage() noexcept;
 

@@ -1,9 +1,9 @@
 // rasterizer/chip/color_weights.h - interpolates vertex colours with 8-bit weights, as NV2A (GeForce3 class) does.
 //
 // Rule     Vertex colours are first converted to 8 bits: their leading bits (InterpolationHypothesis), times 255, to
-//          nearest, a half rounds up. Weights b as in cut_weight.h; the vertex that takes the remainder has 1 - (the
-//          two others), exactly. w0 = floor(256 b0), w2 = floor(256 b2), w1 = 256 - w0 - w2; colour = (w0 c0 + w1 c1 +
-//          w2 c2 + 128) >> 8, divided by 255 in binary32. If 1/w differs: perspective_weights.h; or
+//          nearest, a half rounds up. Weights b as in truncated_weights.h; the vertex that takes the remainder has 1 -
+//          (the two others), exactly. w0 = floor(256 b0), w2 = floor(256 b2), w1 = 256 - w0 - w2; colour = (w0 c0 + w1
+//          c1 + w2 c2 + 128) >> 8, divided by 255 in binary32. If 1/w differs: perspective_weights.h; or
 //          PerspectiveColor::edge_products (assumed): p_i = e_i (1/w_i), b_i = p_i (1 / ((p0 + p1) + p2)) in binary64,
 //          truncated to 24 bits; or weight_products (assumed): p_i = b_i (1/w_i) truncated to 24 bits, normalized with
 //          a reciprocal truncated to 28 bits.
@@ -52,13 +52,13 @@ class ColorWeights {
 
     [[nodiscard]] Weights affine(const EdgeValues& e) const noexcept { return weights_.at(e); }
     [[nodiscard]] Weights perspective(const EdgeValues& e) const noexcept {
-        if (rule_ == PerspectiveColor::cut_products) return perspective_.cut_at(e);
+        if (rule_ == PerspectiveColor::cut_products) return perspective_.truncated_at(e);
         const bool by_weights = rule_ == PerspectiveColor::weight_products;
         Weights p = by_weights ? affine(e) : Weights{};
         for (std::size_t i = 0; i < 3; ++i)
-            p[i] = by_weights ? cut_bits(p[i] * inverse_w_[i], 24) : static_cast<double>(e[i]) * inverse_w_[i];
+            p[i] = by_weights ? truncate_bits(p[i] * inverse_w_[i], 24) : static_cast<double>(e[i]) * inverse_w_[i];
         const double r = 1.0 / ((p[0] + p[1]) + p[2]);
-        for (double& b : p) b = cut_bits(b * (by_weights ? cut_bits(r, 28) : r), 24);
+        for (double& b : p) b = truncate_bits(b * (by_weights ? truncate_bits(r, 28) : r), 24);
         return p;
     }
     // The weights of the outer corners are truncated to 1/256, and the middle one takes the rest: the sum is always
@@ -78,7 +78,7 @@ class ColorWeights {
         return {w0, 256 - w0 - w2, w2};
     }
 
-    CutWeights weights_;
+    TruncatedWeights weights_;
     PerspectiveWeights perspective_;
     std::array<float, 3> inverse_w_;
     PerspectiveColor rule_;

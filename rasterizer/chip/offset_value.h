@@ -7,30 +7,30 @@
 // Tests    tests/rasterizer/chip/w_buffer_test.cpp
 #pragma once
 #include "rasterizer/base/two_terms.h"
-#include "rasterizer/chip/cut_weight.h"
+#include "rasterizer/chip/truncated_weights.h"
 #include "rasterizer/rules/raster_state.h"
 
 namespace strata::rasterizer {
 inline namespace strict {
 
 // high + low truncated toward zero to 24 bits. Precondition: |low| is at most half a unit in the last place of high.
-[[nodiscard]] constexpr double cut_sum_24(TwoTerms s) noexcept {
-    const double cut = cut_bits(s.high, 24);
-    const bool is_below = cut == s.high && s.low != 0.0 && (s.low < 0.0) != (s.high < 0.0);
+[[nodiscard]] constexpr double truncate_sum_24(TwoTerms s) noexcept {
+    const double truncated = truncate_bits(s.high, 24);
+    const bool is_below = truncated == s.high && s.low != 0.0 && (s.low < 0.0) != (s.high < 0.0);
     // `high` has 24 bits and the sum is slightly smaller in magnitude: the previous value.
-    return is_below ? cut_bits(std::bit_cast<double>(std::bit_cast<std::uint64_t>(cut) - 1), 24) : cut;
+    return is_below ? truncate_bits(std::bit_cast<double>(std::bit_cast<std::uint64_t>(truncated) - 1), 24) : truncated;
 }
 
 // o of a triangle whose value has that slope.
 [[nodiscard]] constexpr double chip_offset(double slope, const PolygonOffset& offset) noexcept {
     if (!offset.enabled) return 0.0;
-    const double sloped = offset.factor == 0.0f ? 0.0 : cut_bits(cut_bits(slope, 24) * offset.factor, 24);
-    return cut_sum_24(two_sum(sloped, double{offset.units}));
+    const double sloped = offset.factor == 0.0f ? 0.0 : truncate_bits(truncate_bits(slope, 24) * offset.factor, 24);
+    return truncate_sum_24(two_sum(sloped, double{offset.units}));
 }
 
 [[nodiscard]] constexpr double offset_value(TwoTerms value, double offset) noexcept {
-    const double v = cut_sum_24(value);
-    return offset == 0.0 ? v : cut_sum_24(two_sum(v, offset));
+    const double v = truncate_sum_24(value);
+    return offset == 0.0 ? v : truncate_sum_24(two_sum(v, offset));
 }
 
 }  // namespace strict

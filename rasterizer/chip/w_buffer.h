@@ -39,8 +39,9 @@ class WBuffer {
         const double p0 = b[0] * first_, p2 = b[2] * last_;
         const int unit = std::max({exponent_of(base_), exponent_of(p0), exponent_of(p2)}) - (sum_bits_ - 1);
         const double units = power_of_two(-unit);
-        const auto cut = [units](double p) { return static_cast<std::int64_t>(p * units); };
-        return offset_value(two_sum(base_, static_cast<double>(cut(p0) + cut(p2)) * power_of_two(unit)), offset_);
+        const auto truncated = [units](double p) { return static_cast<std::int64_t>(p * units); };
+        return offset_value(two_sum(base_, static_cast<double>(truncated(p0) + truncated(p2)) * power_of_two(unit)),
+                            offset_);
     }
 
   private:

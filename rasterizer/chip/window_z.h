@@ -16,8 +16,8 @@
 #include <cstdint>
 
 #include "rasterizer/base/two_terms.h"
-#include "rasterizer/chip/cut_weight.h"
 #include "rasterizer/chip/offset_value.h"
+#include "rasterizer/chip/truncated_weights.h"
 #include "rasterizer/coverage/coverage.h"
 #include "rasterizer/rules/depth_hypothesis.h"
 
@@ -102,8 +102,8 @@ class WindowZ24 {
             for (std::size_t i = 0; i < 3; ++i) {
                 const double d = double{z_[i]} - double{z_[r]};
                 const bool is_zero = d < least_depth && d > -least_depth;
-                is_narrow_ =
-                    is_narrow_ && two_sum(double{z_[i]}, -double{z_[r]}).low == 0.0 && cut_bits(d, narrow_bits) == d;
+                is_narrow_ = is_narrow_ && two_sum(double{z_[i]}, -double{z_[r]}).low == 0.0 &&
+                             truncate_bits(d, narrow_bits) == d;
                 narrow_[r][i] = is_zero ? 0.0 : d;
             }
         for (std::size_t r = 0; r < 3 && !is_narrow_; ++r)
@@ -134,7 +134,7 @@ class WindowZ24 {
         }
         // In units of 2^unit, truncated toward zero; below 2^29 because the unit is 28 bits below the largest term. The
         // exponent of a zero is meaningless: with two corners at depth 0 it may be any number of bits above the unit.
-        [[nodiscard]] constexpr std::int64_t cut(int unit) const noexcept {
+        [[nodiscard]] constexpr std::int64_t truncated(int unit) const noexcept {
             if (magnitude == 0) return 0;
             const int right = unit - exponent;
             const Wide kept = right >= 128 ? 0 : (right >= 0 ? magnitude >> right : magnitude << -right);
@@ -150,7 +150,8 @@ class WindowZ24 {
         const int largest = std::max({own, pj.leading_exponent(), pk.leading_exponent()});
         if (largest == none) return {};
         const int unit = largest - (sum_bits_ - 1);
-        return two_sum(double{z_[r]}, static_cast<double>(pj.cut(unit) + pk.cut(unit)) * power_of_two(unit));
+        return two_sum(double{z_[r]},
+                       static_cast<double>(pj.truncated(unit) + pk.truncated(unit)) * power_of_two(unit));
     }
     // The same if every product is exact in binary64.
     [[nodiscard]] constexpr TwoTerms narrow_sum(const EdgeValues& e) const noexcept {
@@ -161,11 +162,11 @@ class WindowZ24 {
         if (largest < -1000) return {};
         const int unit = largest - (sum_bits_ - 1);
         const double units = power_of_two(-unit);
-        const auto cut = [units](double p) { return static_cast<std::int64_t>(p * units); };
-        return two_sum(z, static_cast<double>(cut(pj) + cut(pk)) * power_of_two(unit));
+        const auto truncated = [units](double p) { return static_cast<std::int64_t>(p * units); };
+        return two_sum(z, static_cast<double>(truncated(pj) + truncated(pk)) * power_of_two(unit));
     }
 
-    CutWeights weights_;
+    TruncatedWeights weights_;
     double offset_;
     int sum_bits_;
     std::array<float, 3> z_{};

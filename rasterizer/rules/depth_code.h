@@ -28,12 +28,12 @@ enum class DepthFormat : std::uint8_t { d16, d24, d32f, d16f, d24f };
 // binary32 and truncated, 24 bits as by floor. The float formats ignore it.
 enum class DepthRounding : std::uint8_t { floor, nearest, product_even, product_floor };
 
-[[nodiscard]] constexpr bool cuts(DepthRounding rounding) noexcept {
+[[nodiscard]] constexpr bool truncates(DepthRounding rounding) noexcept {
     return rounding == DepthRounding::floor || rounding == DepthRounding::product_floor;
 }
 
 // The conversions from a value to a code.
-enum class CodeKind : std::uint8_t { fixed, fixed_product, fixed_cut_product, binary32, d16f, d24f };
+enum class CodeKind : std::uint8_t { fixed, fixed_product, fixed_truncated_product, binary32, d16f, d24f };
 
 // The conversion of values in one unit to codes of one format. `Limit` is binary32 for values in [0,1], whose limits it
 // represents exactly.
@@ -44,7 +44,7 @@ struct DepthConversion {
     double scale, half;     // buffer units per unit of the values; the rounding term, added before truncation
     bool wraps = false;     // DepthLimits::wrap: the range is not applied; to_wrapped_code is used
     [[nodiscard]] constexpr bool is_fixed() const noexcept {
-        return kind == CodeKind::fixed || kind == CodeKind::fixed_product || kind == CodeKind::fixed_cut_product;
+        return kind == CodeKind::fixed || kind == CodeKind::fixed_product || kind == CodeKind::fixed_truncated_product;
     }
 };
 
@@ -90,7 +90,7 @@ inline constexpr float max_d16f = 511.9375f;
     switch (code_kind(format)) {
         case CodeKind::fixed:
         case CodeKind::fixed_product:
-        case CodeKind::fixed_cut_product: return max_code(format);
+        case CodeKind::fixed_truncated_product: return max_code(format);
         case CodeKind::binary32: return 1.0;
         case CodeKind::d16f: return max_d16f;
         case CodeKind::d24f: return max_d24f;
@@ -140,7 +140,7 @@ struct OneLane {
         return std::bit_cast<std::uint32_t>(static_cast<float>(v));
     }
     static constexpr double times(Value v, double scale) noexcept { return double{v} * scale; }
-    static constexpr std::uint32_t cut_sum(double v, double half) noexcept {
+    static constexpr std::uint32_t truncated_sum(double v, double half) noexcept {
         return static_cast<std::uint32_t>(static_cast<std::int32_t>(v + half));  // vectors have no unsigned conversion
     }
     // The unit in the last place of a sum with this number is 1.
@@ -148,11 +148,11 @@ struct OneLane {
         constexpr double round_at_one = 0x1.8p52;
         return static_cast<std::uint32_t>((double{static_cast<float>(v)} + round_at_one) - round_at_one);
     }
-    static constexpr std::uint32_t cut_of_product(double v) noexcept {
+    static constexpr std::uint32_t truncated_product(double v) noexcept {
         return static_cast<std::uint32_t>(static_cast<std::int32_t>(static_cast<float>(v)));
     }
-    static constexpr std::uint32_t cut_to_d16f(double v) noexcept { return to_d16f_code(v); }
-    static constexpr std::uint32_t cut_to_d24f(double v) noexcept { return to_d24f_code(v); }
+    static constexpr std::uint32_t truncate_to_d16f(double v) noexcept { return to_d16f_code(v); }
+    static constexpr std::uint32_t truncate_to_d24f(double v) noexcept { return to_d24f_code(v); }
 };
 
 #include "rasterizer/rules/depth_text-inl.h"
@@ -163,7 +163,8 @@ template <class Value>
     switch (to.kind) {
         case CodeKind::fixed: return depth_code<CodeKind::fixed>(OneLane<Value>{}, z, to);
         case CodeKind::fixed_product: return depth_code<CodeKind::fixed_product>(OneLane<Value>{}, z, to);
-        case CodeKind::fixed_cut_product: return depth_code<CodeKind::fixed_cut_product>(OneLane<Value>{}, z, to);
+        case CodeKind::fixed_truncated_product:
+            return depth_code<CodeKind::fixed_truncated_product>(OneLane<Value>{}, z, to);
         case CodeKind::binary32: return depth_code<CodeKind::binary32>(OneLane<Value>{}, z, to);
         case CodeKind::d16f: return depth_code<CodeKind::d16f>(OneLane<Value>{}, z, to);
         case CodeKind::d24f: return depth_code<CodeKind::d24f>(OneLane<Value>{}, z, to);
@@ -178,7 +179,7 @@ template <class Value>
     constexpr double most = 0x1p62;  // its lowest 32 bits are 0
     if (to.kind == CodeKind::binary32) return std::bit_cast<std::uint32_t>(z);
     const double exact = double{z} * to.scale;
-    const bool is_product = to.kind == CodeKind::fixed_product || to.kind == CodeKind::fixed_cut_product;
+    const bool is_product = to.kind == CodeKind::fixed_product || to.kind == CodeKind::fixed_truncated_product;
     const double scaled = is_product ? double{static_cast<float>(exact)} : exact;
     const double bounded = scaled > -most && scaled < most ? scaled : 0.0;  // NaN gives 0 too
     const auto whole = static_cast<std::int64_t>(bounded + (bounded < 0 ? -to.half : to.half));
@@ -202,10 +203,10 @@ template <class Limit>
                                                                 float near = 0.0f, float far = 1.0f) noexcept {
     const bool is_fixed = code_kind(format) == CodeKind::fixed, rounds = rounding == DepthRounding::nearest && is_fixed;
     const bool is_product = rounding == DepthRounding::product_even && is_fixed;
-    const bool is_cut_product = rounding == DepthRounding::product_floor && format == DepthFormat::d16;
-    const CodeKind kind = is_product       ? CodeKind::fixed_product
-                          : is_cut_product ? CodeKind::fixed_cut_product
-                                           : code_kind(format);
+    const bool is_truncated_product = rounding == DepthRounding::product_floor && format == DepthFormat::d16;
+    const CodeKind kind = is_product             ? CodeKind::fixed_product
+                          : is_truncated_product ? CodeKind::fixed_truncated_product
+                                                 : code_kind(format);
     const float n = range_limit(near), f = range_limit(far);
     return {kind, std::min(n, f) * units, std::max(n, f) * units, buffer_units(format) / units, rounds ? 0.5 : 0.0};
 }
@@ -220,7 +221,7 @@ template <class Limit>
     switch (code_kind(format)) {
         case CodeKind::fixed:
         case CodeKind::fixed_product:
-        case CodeKind::fixed_cut_product: return code;
+        case CodeKind::fixed_truncated_product: return code;
         case CodeKind::binary32: return double{std::bit_cast<float>(code)};
         case CodeKind::d16f: return double{d16f_value(code)};
         case CodeKind::d24f: return d24f_value(code);

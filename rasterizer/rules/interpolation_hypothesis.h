@@ -4,7 +4,7 @@
 // Rule     As in depth_hypothesis.h, defaults are measured on hardware ([M]) or assumed ([A]). interpolation_hypotheses
 //          (hypotheses.h) lists the alternatives.
 // Source   rasterizer/reference/attributes.md 2.2 to 2.5, 3.2 and 3.3; chip-depth.md 8; chip-geometry.md 5.1.
-// Tests    tests/rasterizer/chip/color_weights_test.cpp, cut_coordinates_test.cpp
+// Tests    tests/rasterizer/chip/color_weights_test.cpp, truncated_coordinates_test.cpp
 #pragma once
 #include <cstdint>
 
@@ -21,7 +21,7 @@ enum class PerspectiveColor : std::uint8_t { edge_products, weight_products, cut
 enum class PerspectiveCoordinates : std::uint8_t { exact_plane, cut_products };
 
 // Texture coordinates if w is equal at all corners: the exact plane rounded once, or the chip's sum with truncated
-// weights (cut_coordinates.h) [M]. If w differs: the exact plane [A].
+// weights (truncated_coordinates.h) [M]. If w differs: the exact plane [A].
 enum class CoordinateRule : std::uint8_t { exact_plane, cut_weights };
 
 struct InterpolationHypothesis {

@@ -173,7 +173,7 @@ struct FromInside {
 
 // One step of Sutherland and Hodgman. A corner on the plane is kept and does not create a second corner there
 // (coverage.md 2.5).
-void Clipper::cut(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept {
+void Clipper::clip_against(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept {
     to.count = 0;
     to.extra_count = from.extra_count;
     const auto cross = [&](std::size_t in, double d_in, std::size_t out, double d_out) {
@@ -194,7 +194,7 @@ void Clipper::cut(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) 
 
 // Here a corner on the plane does create a second corner at the same point, and the new corner is computed from the end
 // that is nearer to the plane (coverage.md 2.8).
-void Clipper::cut_single(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept {
+void Clipper::clip_single(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept {
     to.count = 0;
     to.extra_count = from.extra_count;
     const auto cross = [&](std::size_t start, std::size_t other, float t) {
@@ -221,7 +221,7 @@ void Clipper::cut_single(const Plane& plane, const ClipPolygon& from, ClipPolygo
 
 // A corner on the plane creates a second corner at the same point on the way out, and none on the way in (coverage.md
 // 2.8).
-void Clipper::cut_depth_first(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept {
+void Clipper::clip_depth_first(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept {
     to.count = 0;
     to.extra_count = from.extra_count;
     const auto cross = [&](std::size_t in, float d_in, std::size_t out, float d_out) {
@@ -248,11 +248,11 @@ void Clipper::clip(ClipPolygon& polygon, std::uint32_t planes) const noexcept {
         if ((planes >> i & 1u) == 0) continue;
         const Plane& plane = plane_[static_cast<std::size_t>(i)];
         if (is_depth_first_)
-            cut_depth_first(plane, polygon, other);
+            clip_depth_first(plane, polygon, other);
         else if (is_single_)
-            cut_single(plane, polygon, other);
+            clip_single(plane, polygon, other);
         else
-            cut(plane, polygon, other);
+            clip_against(plane, polygon, other);
         polygon = other;
         if (polygon.count < 3) break;
     }

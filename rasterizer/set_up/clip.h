@@ -75,10 +75,10 @@ class Clipper {
     void add_view_volume(bool clips_z) noexcept;
     void add_view_volume_depth_first(bool clips_z) noexcept;
     void add(const Plane& plane) noexcept { plane_[static_cast<std::size_t>(count_++)] = plane; }
-    static void cut(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept;
+    static void clip_against(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept;
     // The same for ClipVolume::view_volume, and for view_volume_depth_first.
-    static void cut_single(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept;
-    static void cut_depth_first(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept;
+    static void clip_single(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept;
+    static void clip_depth_first(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept;
 
     std::array<Plane, max_clip_planes> plane_{};
     int count_ = 0;

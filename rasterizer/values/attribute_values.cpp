@@ -1,8 +1,8 @@
 // rasterizer/values/attribute_values.cpp - colours and texture coordinates of a batch by exact planes.
 #include <bit>
 
-#include "rasterizer/values/cut_coordinates.h"
 #include "rasterizer/values/fragment_values.h"
+#include "rasterizer/values/truncated_coordinates.h"
 
 namespace strata::rasterizer {
 namespace {
@@ -25,8 +25,8 @@ int FragmentValues::fill_attributes(const DrawnTriangle& triangle, int first, Fr
         v[i] = &geometry.vertices[triangle.record.vertex[i]];
         w[i] = geometry.corners[triangle.record.vertex[i]].inverse_w;
     }
-    const bool cut = needs_.texcoord && cuts_coordinates(rules_, w);
-    const std::size_t end = needs_.texcoord && !cut ? attribute_count : color_channels;
+    const bool truncated = needs_.texcoord && truncates_coordinates(rules_, w);
+    const std::size_t end = needs_.texcoord && !truncated ? attribute_count : color_channels;
     AttributeLanes varying;
     // If every w is 1, the quotient equals the dividend.
     varying.has_w = !(w[0] == 1.0 && w[1] == 1.0 && w[2] == 1.0);
@@ -47,13 +47,13 @@ int FragmentValues::fill_attributes(const DrawnTriangle& triangle, int first, Fr
     const TriangleEdges edges = triangle.edges();
     const TriangleLanes own = lanes(triangle, edges, first, batch, weights);
     if (weighted) fill_chip_colors(triangle, own, first, batch);
-    if (cut) {
+    if (truncated) {
         const auto corners = [&](std::size_t a) {
             return std::array{v[0]->texcoord[a], v[1]->texcoord[a], v[2]->texcoord[a]};
         };
         fill_chip_coordinates(triangle, own,
-                              std::array{CutCoordinate{corners(0), &batch.texcoord[0][f]},
-                                         CutCoordinate{corners(1), &batch.texcoord[1][f]}});
+                              std::array{TruncatedCoordinate{corners(0), &batch.texcoord[0][f]},
+                                         TruncatedCoordinate{corners(1), &batch.texcoord[1][f]}});
     }
     return fill_varying(varying, own);
 }

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "rasterizer/chip/color_weights.h"
-#include "rasterizer/values/cut_coordinates.h"
 #include "rasterizer/values/depth_paths.h"
 #include "rasterizer/values/fragment_values.h"
+#include "rasterizer/values/truncated_coordinates.h"
 #include "rasterizer/values/weight_lanes.h"
 
 namespace strata::rasterizer {
@@ -131,12 +131,12 @@ void FragmentValues::fill_chip_colors(const DrawnTriangle& triangle, const Trian
 }
 
 void FragmentValues::fill_chip_coordinates(const DrawnTriangle& triangle, const TriangleLanes& lanes,
-                                           std::span<const CutCoordinate> coordinates) const noexcept {
+                                           std::span<const TruncatedCoordinate> coordinates) const noexcept {
     const Corners3 inverse_w = inverse_w_of(triangle);
     const bool suits =
         chip_kernels_ != nullptr && ChipTriangle::suits(triangle.weights, triangle.record, rules_.hypothesis);
     CoordinateLanes by_kernel;
-    const auto add = [&](const CutCoordinate& c) {
+    const auto add = [&](const TruncatedCoordinate& c) {
         if (!suits || is_constant(c.u)) return false;
         const CoordinateLanes::Term term{c.u[1], double{c.u[0]} - double{c.u[1]}, double{c.u[2]} - double{c.u[1]},
                                          c.out};
@@ -144,16 +144,16 @@ void FragmentValues::fill_chip_coordinates(const DrawnTriangle& triangle, const 
         by_kernel.term[by_kernel.count++] = term;
         return true;
     };
-    const auto define = [&](const CutCoordinate& c) {
-        cut_coordinates(c.u, cut_w(inverse_w, w_of(triangle)), lanes, rules_.hypothesis, c.out);
+    const auto define = [&](const TruncatedCoordinate& c) {
+        truncated_coordinates(c.u, coordinate_w(inverse_w, w_of(triangle)), lanes, rules_.hypothesis, c.out);
     };
-    for (const CutCoordinate& c : coordinates)
+    for (const TruncatedCoordinate& c : coordinates)
         if (!add(c)) define(c);
     if (by_kernel.count == 0) return;
     if (!chip_kernels_->coordinates(attribute_triangle(triangle, inverse_w, rules_.hypothesis), by_kernel, lanes.x,
                                     lanes.y, lanes.count))
         return;
-    for (const CutCoordinate& c : coordinates) define(c);
+    for (const TruncatedCoordinate& c : coordinates) define(c);
 }
 
 }  // namespace strata::rasterizer

@@ -17,7 +17,7 @@ template <CodeKind kind>
 HWY_INLINE void window_z_of(const ChipTriangle& t, const NarrowWindowZ& z, const std::uint16_t* x,
                             const std::uint16_t* y, int count, const ChipConversion& to, std::uint32_t* out) {
     const WeightsAt<false> edges{t.edges};
-    const CutWeightsAt weights{t};
+    const TruncatedWeightsAt weights{t};
     const WindowZAt depth{z};
     const ChipConversion conversion = to;
     const double area = t.edges.area;
@@ -34,7 +34,7 @@ void window_z(const ChipTriangle& t, const NarrowWindowZ& z, const std::uint16_t
         case CodeKind::d24f: return window_z_of<CodeKind::d24f>(t, z, x, y, count, to, out);
         case CodeKind::fixed:
         case CodeKind::fixed_product:
-        case CodeKind::fixed_cut_product:
+        case CodeKind::fixed_truncated_product:
         case CodeKind::binary32: break;
     }
     window_z_of<CodeKind::fixed>(t, z, x, y, count, to, out);
@@ -60,7 +60,7 @@ HWY_INLINE OuterParts outer_parts(const Corners& b) {
 void colors(const ChipTriangle& t, const ColorLanes& colors, const std::uint16_t* x, const std::uint16_t* y,
             int count) noexcept {
     const WeightsAt<false> edges{t.edges};
-    const CutWeightsAt weights{t};
+    const TruncatedWeightsAt weights{t};
     const double area = t.edges.area;
     const I32 d;
     for (int i = 0; i < count; i += step) {
@@ -78,14 +78,14 @@ void colors(const ChipTriangle& t, const ColorLanes& colors, const std::uint16_t
     }
 }
 
-// CutSum::at, truncated to binary32. Between these two powers every intermediate is a normal number of binary32.
+// TruncatedSum::at, truncated to binary32. Between these two powers every intermediate is a normal number of binary32.
 constexpr double least_power = 0x1p-100, greatest_power = 0x1p100;
 
 bool coordinates(const ChipTriangle& t, const CoordinateLanes& coordinates, const std::uint16_t* x,
                  const std::uint16_t* y, int count) noexcept {
     const F64 d;
     const WeightsAt<false> edges{t.edges};
-    const CutWeightsAt weights{t};
+    const TruncatedWeightsAt weights{t};
     const double area = t.edges.area;
     Mask64 is_unknown = hn::MaskFromVec(hn::Zero(d));
     for (int i = 0; i < count; i += step) {
@@ -102,11 +102,11 @@ bool coordinates(const ChipTriangle& t, const CoordinateLanes& coordinates, cons
             const Mask64 is_known = hn::And(hn::Ge(largest, all(least_power)), hn::Le(largest, all(greatest_power)));
             is_unknown = hn::Or(is_unknown, hn::AndNot(is_known, hn::FirstN(d, static_cast<std::size_t>(count - i))));
             const V64 unit = hn::Mul(largest, all(0x1p-23)), units = inverse_power(unit);
-            const auto cut = [&](V64 v) HWY_ATTR { return hn::Trunc(hn::Mul(v, units)); };
-            const V64 sum =
-                hn::Add(hn::Add(cut(all(u.middle)), cut(hn::Mul(b0, all(u.first)))), cut(hn::Mul(b2, all(u.last))));
+            const auto truncated = [&](V64 v) HWY_ATTR { return hn::Trunc(hn::Mul(v, units)); };
+            const V64 sum = hn::Add(hn::Add(truncated(all(u.middle)), truncated(hn::Mul(b0, all(u.first)))),
+                                    truncated(hn::Mul(b2, all(u.last))));
             // Adding 0 turns -0 into +0: the definition sums integers, which have no -0.
-            const V64 v = cut_24(hn::Mul(hn::Add(sum, hn::Zero(d)), unit));
+            const V64 v = truncate_24(hn::Mul(hn::Add(sum, hn::Zero(d)), unit));
             hn::StoreU(hn::DemoteTo(F32{}, v), F32{}, u.out + i);
         }
     }

@@ -1,7 +1,8 @@
 // rasterizer/values/chip_lanes-inl.h - weights, window depth and depth codes of NV2A's interpolators, for a vector of
 // binary64 at a time. For *_simd.cpp only, like weights-inl.h.
 //
-// Rule     The operations and their order are those of CutWeights, PerspectiveWeights and WindowZ24. Exponents are
+// Rule     The operations and their order are those of TruncatedWeights, PerspectiveWeights and WindowZ24. Exponents
+// are
 //          compared as powers of two, which a bit mask extracts; truncation is a bit mask, or Trunc of an exactly
 //          scaled number.
 // Numbers  chip_lanes.h. Lanes that the triangle does not cover may contain any value; their results are not used.
@@ -29,7 +30,7 @@ constexpr std::uint64_t leading_24 = ~std::uint64_t{0} << 29, leading_25 = ~std:
 
 HWY_INLINE V64 all(double v) { return hn::Set(F64{}, v); }
 HWY_INLINE V64 kept(V64 v, std::uint64_t mask) { return hn::And(v, hn::BitCast(F64{}, hn::Set(U64{}, mask))); }
-HWY_INLINE V64 cut_24(V64 v) { return kept(v, leading_24); }
+HWY_INLINE V64 truncate_24(V64 v) { return kept(v, leading_24); }
 // 2^floor(log2 |v|); 0 for zero.
 HWY_INLINE V64 leading_power(V64 v) { return kept(v, exponent_field); }
 HWY_INLINE V64 added_bits(V64 v, hn::Vec<U64> more) { return hn::BitCast(F64{}, hn::Add(hn::BitCast(U64{}, v), more)); }
@@ -49,19 +50,19 @@ struct Corners {
 // the area.
 HWY_INLINE Corners edge_values(const Weights& e, V64 area) { return {hn::Sub(hn::Sub(area, e.b1), e.b2), e.b1, e.b2}; }
 
-HWY_INLINE Corners cut_products(const Corners& p, V64 r) {
-    return {cut_24(hn::Mul(p.c0, r)), cut_24(hn::Mul(p.c1, r)), cut_24(hn::Mul(p.c2, r))};
+HWY_INLINE Corners truncated_products(const Corners& p, V64 r) {
+    return {truncate_24(hn::Mul(p.c0, r)), truncate_24(hn::Mul(p.c1, r)), truncate_24(hn::Mul(p.c2, r))};
 }
-// cut_reciprocal of `sum`; `exact` is 1 / sum, rounded. `low` and the mask are those of ChipTriangle.
-HWY_INLINE V64 cut_inverse(V64 sum, V64 exact, double low, std::uint64_t reciprocal_mask) {
+// truncated_reciprocal of `sum`; `exact` is 1 / sum, rounded. `low` and the mask are those of ChipTriangle.
+HWY_INLINE V64 truncated_inverse(V64 sum, V64 exact, double low, std::uint64_t reciprocal_mask) {
     const auto is_power = hn::Eq(hn::BitCast(U64{}, kept(sum, fraction_field)), hn::Zero(U64{}));
-    const V64 cut = kept(hn::Mul(exact, all(low)), reciprocal_mask);
-    return hn::IfThenElse(hn::RebindMask(F64{}, is_power), exact, cut);
+    const V64 truncated = kept(hn::Mul(exact, all(low)), reciprocal_mask);
+    return hn::IfThenElse(hn::RebindMask(F64{}, is_power), exact, truncated);
 }
 
-class CutWeightsAt {
+class TruncatedWeightsAt {
   public:
-    HWY_INLINE explicit CutWeightsAt(const ChipTriangle& t)
+    HWY_INLINE explicit TruncatedWeightsAt(const ChipTriangle& t)
         : q0_{t.q[0]},
           q1_{t.q[1]},
           q2_{t.q[2]},
@@ -70,17 +71,17 @@ class CutWeightsAt {
           reciprocal_mask_{t.mask},
           is_perspective_{t.is_perspective} {}
 
-    // CutWeights::at, or PerspectiveWeights::cut_at if w differs between the corners.
+    // TruncatedWeights::at, or PerspectiveWeights::truncated_at if w differs between the corners.
     HWY_INLINE Corners at(const Corners& e) const {
-        if (constant_r_ != 0.0) return cut_products(e, all(constant_r_));
-        Corners p{cut_24(e.c0), cut_24(e.c1), cut_24(e.c2)};
+        if (constant_r_ != 0.0) return truncated_products(e, all(constant_r_));
+        Corners p{truncate_24(e.c0), truncate_24(e.c1), truncate_24(e.c2)};
         V64 sum = hn::Add(hn::Add(p.c0, p.c1), p.c2);
         if (is_perspective_) {
             const Corners whole{hn::Mul(p.c0, all(q0_)), hn::Mul(p.c1, all(q1_)), hn::Mul(p.c2, all(q2_))};
             sum = aligned_sum(whole);
             p = {kept(whole.c0, leading_25), kept(whole.c1, leading_25), kept(whole.c2, leading_25)};
         }
-        return cut_products(p, cut_inverse(sum, hn::Div(all(1.0), sum), low_, reciprocal_mask_));
+        return truncated_products(p, truncated_inverse(sum, hn::Div(all(1.0), sum), low_, reciprocal_mask_));
     }
 
   private:
@@ -88,8 +89,8 @@ class CutWeightsAt {
     HWY_INLINE static V64 aligned_sum(const Corners& p) {
         const V64 largest = hn::Max(leading_power(p.c0), hn::Max(leading_power(p.c1), leading_power(p.c2)));
         const V64 unit = hn::Mul(largest, all(0x1p-28)), units = inverse_power(unit);
-        const auto cut = [&](V64 v) { return hn::Trunc(hn::Mul(v, units)); };
-        return hn::Mul(hn::Add(hn::Add(cut(p.c0), cut(p.c1)), cut(p.c2)), unit);
+        const auto truncated = [&](V64 v) { return hn::Trunc(hn::Mul(v, units)); };
+        return hn::Mul(hn::Add(hn::Add(truncated(p.c0), truncated(p.c1)), truncated(p.c2)), unit);
     }
 
     const double q0_, q1_, q2_, low_, constant_r_;
@@ -121,11 +122,12 @@ HWY_INLINE TwoLanes two_sum_lanes(V64 a, V64 b) {
     const V64 a_seen = hn::Sub(sum, b_seen);
     return {sum, hn::Add(hn::Sub(a, a_seen), hn::Sub(b, b_seen))};
 }
-// cut_sum_24. The two terms have different signs if their product is negative.
-HWY_INLINE V64 cut_sum(const TwoLanes& s) {
-    const Mask64 is_below = hn::And(hn::Eq(cut_24(s.high), s.high), hn::Lt(hn::Mul(s.low, s.high), hn::Zero(F64{})));
+// truncate_sum_24. The two terms have different signs if their product is negative.
+HWY_INLINE V64 truncated_sum(const TwoLanes& s) {
+    const Mask64 is_below =
+        hn::And(hn::Eq(truncate_24(s.high), s.high), hn::Lt(hn::Mul(s.low, s.high), hn::Zero(F64{})));
     const auto minus_one = hn::BitCast(U64{}, hn::VecFromMask(F64{}, is_below));
-    return cut_24(added_bits(s.high, minus_one));
+    return truncate_24(added_bits(s.high, minus_one));
 }
 
 // WindowZ24 for narrow corners, without the offset. `last_place` is 2^(1 - sum_bits).
@@ -148,7 +150,7 @@ struct WindowZLanes {
         const V64 largest = hn::Max(own, hn::Max(leading_power(pj), leading_power(pk)));
         const V64 unit = hn::Mul(largest, all(last_place)), units = inverse_power(unit);
         const V64 sum = hn::Add(hn::Trunc(hn::Mul(pj, units)), hn::Trunc(hn::Mul(pk, units)));
-        return cut_sum(two_sum_lanes(z, hn::Mul(sum, unit)));
+        return truncated_sum(two_sum_lanes(z, hn::Mul(sum, unit)));
     }
 };
 
@@ -169,7 +171,7 @@ class WindowZAt {
         const WindowZLanes lanes{all(z0_),  all(z1_),   all(z2_),   all(d10_), all(d20_),
                                  all(d21_), all(-d10_), all(-d20_), all(-d21_)};
         const V64 v = lanes.value(e, b, last_place_);
-        return offset_ == 0.0 ? v : cut_sum(two_sum_lanes(v, all(offset_)));
+        return offset_ == 0.0 ? v : truncated_sum(two_sum_lanes(v, all(offset_)));
     }
 
   private:

@@ -12,7 +12,7 @@ namespace {
 // z_i - z_j, or 0 below the least depth; clears `is_narrow` if the difference does not fit in 29 bits.
 [[nodiscard]] double narrow_difference(double a, double b, bool& is_narrow) noexcept {
     const TwoTerms d = two_sum(a, -b);
-    is_narrow = is_narrow && d.low == 0.0 && cut_bits(d.high, narrow_bits) == d.high;
+    is_narrow = is_narrow && d.low == 0.0 && truncate_bits(d.high, narrow_bits) == d.high;
     return magnitude(d.high) < least_depth ? 0.0 : d.high;
 }
 

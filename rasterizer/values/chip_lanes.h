@@ -1,6 +1,6 @@
 // rasterizer/values/chip_lanes.h - the inputs of the kernels for NV2A's interpolators: binary64 values per triangle.
 //
-// Rule     window_z.h, color_weights.h and cut_coordinates.h are the definitions. The kernels implement
+// Rule     window_z.h, color_weights.h and truncated_coordinates.h are the definitions. The kernels implement
 //          WeightRule::cut_edges, edge values whose sum is exact in binary64, and corners whose depth differences are
 //          narrow; everything else runs the definitions.
 // Numbers  The area is at most 2^52: at a covered pixel each edge value and each partial sum of them is in 0..area.
@@ -12,7 +12,7 @@
 #include <cstdint>
 
 #include "rasterizer/base/two_terms.h"
-#include "rasterizer/chip/cut_weight.h"
+#include "rasterizer/chip/truncated_weights.h"
 #include "rasterizer/rules/depth_code.h"
 #include "rasterizer/set_up/geometry.h"
 #include "rasterizer/values/pixel_weights.h"
@@ -20,7 +20,7 @@
 namespace strata::rasterizer {
 inline namespace strict {
 
-// The factor 1 - d 2^-32 of cut_reciprocal, and the mask of the bits that it keeps.
+// The factor 1 - d 2^-32 of truncated_reciprocal, and the mask of the bits that it keeps.
 [[nodiscard]] constexpr double reciprocal_factor(const DepthHypothesis& h) noexcept {
     return 1.0 - h.reciprocal_deficit * 0x1p-32;
 }
@@ -28,7 +28,8 @@ inline namespace strict {
     return ~std::uint64_t{0} << (53 - h.reciprocal_bits);
 }
 
-// A triangle's edges and the rule of its weights: CutWeights, or PerspectiveWeights if w differs between the corners.
+// A triangle's edges and the rule of its weights: TruncatedWeights, or PerspectiveWeights if w differs between the
+// corners.
 struct ChipTriangle {
     PixelWeights edges;           // constructed with PixelWeights::EdgesAlone
     std::array<double, 3> q{};    // |1 / w| truncated to 24 bits
@@ -47,14 +48,15 @@ struct ChipTriangle {
     ChipTriangle(const PixelWeights& weights, const DepthHypothesis& h) noexcept
         : edges{weights}, low{reciprocal_factor(h)}, mask{reciprocal_mask(h)} {
         edges.r = 1.0;
-        if (edges.area < 0x1p24) constant_r = cut_reciprocal(edges.area, h);
+        if (edges.area < 0x1p24) constant_r = truncated_reciprocal(edges.area, h);
     }
     // For corners whose w differ; their weights are those of PerspectiveWeights.
     ChipTriangle(const PixelWeights& weights, const DepthHypothesis& h, const std::array<float, 3>& w) noexcept
         : ChipTriangle{weights, h} {
         is_perspective = true;
         constant_r = 0.0;
-        for (std::size_t i = 0; i < 3; ++i) q[i] = cut_bits(1.0 / (w[i] < 0.0f ? -double{w[i]} : double{w[i]}), 24);
+        for (std::size_t i = 0; i < 3; ++i)
+            q[i] = truncate_bits(1.0 / (w[i] < 0.0f ? -double{w[i]} : double{w[i]}), 24);
     }
 };
 
@@ -107,7 +109,7 @@ struct ColorLanes {
     std::array<float*, color_channels> out{};
 };
 
-// A coordinate that varies over the triangle: the terms of CutSum, and the output array.
+// A coordinate that varies over the triangle: the terms of TruncatedSum, and the output array.
 struct CoordinateLanes {
     static constexpr std::size_t most = 4;
     struct Term {

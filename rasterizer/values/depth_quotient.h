@@ -34,7 +34,7 @@ inline namespace strict {
 }
 
 // 1 / d, truncated toward zero.
-[[nodiscard]] constexpr float cut_reciprocal(float d) noexcept {
+[[nodiscard]] constexpr float truncated_reciprocal(float d) noexcept {
     const float r = 1.0f / d;
     return double{r} * double{d} > 1.0 ? toward_zero(r) : r;
 }
@@ -43,7 +43,7 @@ inline namespace strict {
 [[nodiscard]] constexpr float divide(float n, float d, DivideRule rule) noexcept {
     switch (rule) {
         case DivideRule::exact: return n / d;
-        case DivideRule::cut_reciprocal: return n * cut_reciprocal(d);
+        case DivideRule::cut_reciprocal: return n * truncated_reciprocal(d);
         case DivideRule::low_reciprocal: return n * toward_zero(1.0f / d);
     }
     return 0.0f;  // unreachable: the enum is closed

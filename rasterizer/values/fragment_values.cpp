@@ -30,7 +30,8 @@ void to_codes(const Value* z, int count, const DepthConversion<Value>& to, std::
     switch (to.kind) {
         case CodeKind::fixed: return to_codes_of<CodeKind::fixed>(z, count, to, out);
         case CodeKind::fixed_product: return to_codes_of<CodeKind::fixed_product>(z, count, to, out);
-        case CodeKind::fixed_cut_product: return to_codes_of<CodeKind::fixed_cut_product>(z, count, to, out);
+        case CodeKind::fixed_truncated_product:
+            return to_codes_of<CodeKind::fixed_truncated_product>(z, count, to, out);
         case CodeKind::binary32: return to_codes_of<CodeKind::binary32>(z, count, to, out);
         case CodeKind::d16f: return to_codes_of<CodeKind::d16f>(z, count, to, out);
         case CodeKind::d24f: return to_codes_of<CodeKind::d24f>(z, count, to, out);
@@ -105,10 +106,10 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
     reference_is_stored_ = needs.reference && is_value(depth.path, rules_.hypothesis) &&
                            (compared == depth.path || (is_quotient(compared) && is_quotient(depth.path)));
     const InterpolationHypothesis& interpolation = rules_.interpolation;
-    const bool cuts_all = interpolation.texture_coordinates == CoordinateRule::cut_weights &&
-                          interpolation.perspective_coordinates == PerspectiveCoordinates::cut_products;
+    const bool truncates_all = interpolation.texture_coordinates == CoordinateRule::cut_weights &&
+                               interpolation.perspective_coordinates == PerspectiveCoordinates::cut_products;
     needs_plane_weights_ = (needs.color && rules_.color != ColorInterpolation::weights_8bit) ||
-                           ((needs.texcoord || needs.units != 0) && !cuts_all);
+                           ((needs.texcoord || needs.units != 0) && !truncates_all);
     assert(((depth.path != DepthPath::window_z && depth.path != DepthPath::w_buffer) ||
             (z_units_ == code_units_ && !is_float)) &&
            "window_z and w_buffer work in the buffer units of the format that is stored, which is no d32f");
@@ -207,13 +208,13 @@ int FragmentValues::fill_exact_codes(const SetupTriangle& t, const TriangleLanes
         case CodeKind::d24f: return fill_rounded_codes(t, lanes, out);
         case CodeKind::fixed:
         case CodeKind::fixed_product:
-        case CodeKind::fixed_cut_product: break;
+        case CodeKind::fixed_truncated_product: break;
     }
     const std::uint32_t max = max_code(depth_.format);
     const bool in_codes = z_units_ == max;
     const RationalPlane plane{t.z, in_codes ? 1.0 : max, in_codes ? 1.0 : z_units_};
     // The exact plane has no binary32 product: it rounds once, for product_even too, with a half rounded up.
-    const double half = cuts(rules_.depth_rounding) ? 0.0 : 0.5;
+    const double half = truncates(rules_.depth_rounding) ? 0.0 : 0.5;
     const int fallbacks = round_plane(plane, lanes, CodeRounding{half, max}, out);
     const std::uint32_t least = depth_code(to_code_.least, to_code_),
                         greatest = depth_code(to_code_.greatest, to_code_);

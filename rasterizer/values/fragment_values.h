@@ -6,7 +6,7 @@
 //          with the same bits give that constant (assumed). PlaneOrigin::unsnapped: the planes start at the unsnapped
 //          positions, are evaluated in binary64 and rounded once. Other values of PlaneRule: planes of float_planes.h;
 //          PerspectiveDivide::reciprocal multiplies by the rounded reciprocal of the plane of 1/w. Colours by 8-bit
-//          weights: color_weights.h; coordinates by truncated weights: cut_coordinates.h. depth_replace drops a
+//          weights: color_weights.h; coordinates by truncated weights: truncated_coordinates.h. depth_replace drops a
 //          fragment whose depth is outside the depth range (with depth clamp: clamps it), after the clip of window z.
 //          The reference is a second depth of the same fragment, for the depth test.
 // Source   rasterizer/reference/depth.md 3 and 4; attributes.md 1 to 3.
@@ -45,7 +45,7 @@ struct DrawnTriangle {
 };
 
 // A coordinate interpolated by truncated weights: its values at the corners, and the output array.
-struct CutCoordinate {
+struct TruncatedCoordinate {
     std::array<float, 3> u;
     float* out;
 };
@@ -131,7 +131,7 @@ class FragmentValues {
     void fill_chip_colors(const DrawnTriangle& triangle, const TriangleLanes& lanes, int first,
                           FragmentBatch& batch) const noexcept;
     void fill_chip_coordinates(const DrawnTriangle& triangle, const TriangleLanes& lanes,
-                               std::span<const CutCoordinate> coordinates) const noexcept;
+                               std::span<const TruncatedCoordinate> coordinates) const noexcept;
 
     // Converts the depths of fragments [first, batch.count) to keys (rules/depth_key.h).
     void turn_into_keys(int first, FragmentBatch& batch) const noexcept;

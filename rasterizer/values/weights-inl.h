@@ -112,7 +112,7 @@ struct VectorLanes {
     HWY_INLINE static V32 less_or_second(V32 a, V32 b) { return HWY_NAMESPACE::less_or_second(a, b); }
     HWY_INLINE static hn::Vec<U32> bits(V32 v) { return hn::BitCast(U32{}, v); }
     HWY_INLINE static V64 times(V32 v, double scale) { return hn::Mul(hn::PromoteTo(F64{}, v), hn::Set(F64{}, scale)); }
-    HWY_INLINE static hn::Vec<U32> cut_sum(V64 v, double half) {
+    HWY_INLINE static hn::Vec<U32> truncated_sum(V64 v, double half) {
         return hn::BitCast(U32{}, hn::DemoteTo(I32{}, hn::Add(v, hn::Set(F64{}, half))));
     }
 };

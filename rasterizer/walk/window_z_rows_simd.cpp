@@ -120,7 +120,7 @@ struct WindowZOf {
         const PolygonOffset offset_;
         const ChipConversion to_code_;
         const double area_;
-        const CutWeightsAt weights_;
+        const TruncatedWeightsAt weights_;
         const bool is_narrow_, clips_;
         const double least_, greatest_;
         const WindowZAt depth_;
@@ -141,7 +141,7 @@ DepthDrawn draw_window_z(const Geometry& geometry, std::span<const std::uint32_t
         case CodeKind::d24f: draw<CodeKind::d24f>(geometry, triangles, region, state); break;
         case CodeKind::fixed:
         case CodeKind::fixed_product:
-        case CodeKind::fixed_cut_product:
+        case CodeKind::fixed_truncated_product:
         case CodeKind::binary32: draw<CodeKind::fixed>(geometry, triangles, region, state); break;
     }
     return state.drawn;

@@ -117,7 +117,7 @@ StoredPart read_part(Imf::MultiPartInputFile& file, int number) {
 // below would allocate first, up to 2 GiB for a text that is not in the file (OpenEXR 3.1).
 struct WrongSize {
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    std::string sentence{};
+    std::string message{};
 };
 
 void check_sizes_of_attributes(const std::string& path) {
@@ -127,12 +127,12 @@ void check_sizes_of_attributes(const std::string& path) {
         void* found = nullptr;
         if (code == EXR_ERR_ATTR_SIZE_MISMATCH && exr_get_user_data(context, &found) == EXR_ERR_SUCCESS &&
             found != nullptr)
-            static_cast<WrongSize*>(found)->sentence = text;
+            static_cast<WrongSize*>(found)->message = text;
     };
     exr_context_t context = nullptr;
     if (exr_start_read(&context, path.c_str(), &wrong.initializer) == EXR_ERR_SUCCESS) exr_finish(&context);
-    if (!wrong.sentence.empty())
-        throw InputError(path, "file", "an EXR image", "one with an attribute beyond its end: " + wrong.sentence);
+    if (!wrong.message.empty())
+        throw InputError(path, "file", "an EXR image", "one with an attribute beyond its end: " + wrong.message);
 }
 
 std::unique_ptr<Imf::MultiPartInputFile> open(const std::string& path) {

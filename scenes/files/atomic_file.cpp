@@ -131,7 +131,7 @@ void AtomicFile::note_failure() noexcept {
 }
 
 // The order ensures safety: the name must not reach the disk before the file's bytes.
-void AtomicFile::put_in_place() {
+void AtomicFile::rename_to_target() {
     errno = 0;
     if (::fsync(descriptor_) != 0 && errno != EINVAL) return note_failure();
     const int closed = ::close(descriptor_);
@@ -160,9 +160,9 @@ void AtomicFile::send() noexcept {
 }
 
 void AtomicFile::commit() {
-    if (flush()) is_stream_ ? send() : put_in_place();
+    if (flush()) is_stream_ ? send() : rename_to_target();
     if (failure_ != 0) throw SystemError(path_, "write", reason(failure_));  // the destructor removes the file
-    if (const auto told = on_file_written.load()) told(path_);
+    if (const auto on_written = on_file_written.load()) on_written(path_);
 }
 
 void AtomicFile::discard() noexcept {
@@ -174,7 +174,7 @@ void AtomicFile::discard() noexcept {
     slot_ = -1;
 }
 
-void report_written_files(void (*told)(const std::string& path)) noexcept { on_file_written = told; }
+void report_written_files(void (*on_written)(const std::string& path)) noexcept { on_file_written = on_written; }
 
 bool is_standard_output(std::string_view path) noexcept {
     return path == "-" || path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";

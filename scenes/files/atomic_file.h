@@ -37,9 +37,9 @@ class AtomicFile {
 
   private:
     void open_temporary();
-    bool flush() noexcept;  // writes the buffer to the file
-    void put_in_place();    // renames the temporary file
-    void send() noexcept;   // copies the temporary file to a pipe or a device
+    bool flush() noexcept;    // writes the buffer to the file
+    void rename_to_target();  // renames the temporary file
+    void send() noexcept;     // copies the temporary file to a pipe or a device
     // note_failure() keeps the first errno; discard() closes and unlinks a file that was not committed.
     void note_failure() noexcept;
     void discard() noexcept;
@@ -56,8 +56,8 @@ class AtomicFile {
     int failure_ = 0;  // errno of the first failure
 };
 
-// From now on `told` is called for every committed file with its path, on the thread that wrote the file.
-void report_written_files(void (*told)(const std::string& path)) noexcept;
+// From now on `on_written` is called for every committed file with its path, on the thread that wrote the file.
+void report_written_files(void (*on_written)(const std::string& path)) noexcept;
 
 // True for "-" and for the names by which Linux calls standard output.
 [[nodiscard]] bool is_standard_output(std::string_view path) noexcept;

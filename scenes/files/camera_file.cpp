@@ -28,7 +28,7 @@ constexpr std::string_view matrix_keys[] = {"view", "projection"};
 constexpr std::string_view all_keys[] = {"eye", "center", "up", "fovy_degrees", "near", "far", "view", "projection"};
 
 // A value of the file, with the file name and the JSON pointer for errors.
-struct Place {
+struct JsonField {
     const std::string& file;
     std::string pointer;
     const json& value;
@@ -39,10 +39,10 @@ struct Place {
     [[noreturn]] void fail(const std::string& expected) const {  // dump recurses: unsafe if nested deeply
         fail(expected, value.is_structured() ? value.type_name() : value.dump().substr(0, 64));
     }
-    [[nodiscard]] Place operator[](std::string_view key) const {
+    [[nodiscard]] JsonField operator[](std::string_view key) const {
         return {file, pointer + "/" + std::string{key}, value.at(std::string{key})};
     }
-    [[nodiscard]] Place operator[](std::size_t i) const {
+    [[nodiscard]] JsonField operator[](std::size_t i) const {
         return {file, pointer + "/" + std::to_string(i), value.at(i)};
     }
 };
@@ -66,30 +66,30 @@ std::optional<double> parse_hex_float(std::string_view text) {
 constexpr double largest = 0x1p64, smallest = 0x1p-64;
 
 // Every number of a camera file is checked here: an infinity or a NaN would spread through both matrices.
-double number(const Place& place) {
+double number(const JsonField& field) {
     std::optional<double> value;
-    if (place.value.is_number()) value = place.value.get<double>();
-    if (place.value.is_string()) value = parse_hex_float(place.value.get_ref<const std::string&>());
+    if (field.value.is_number()) value = field.value.get<double>();
+    if (field.value.is_string()) value = parse_hex_float(field.value.get_ref<const std::string&>());
     if (!value || !std::isfinite(*value))
-        place.fail("a finite number, or a hexadecimal float in a string such as \"0x1.8p+1\"");
-    if (std::fabs(*value) > largest) place.fail("a number from -2^64 to 2^64");
+        field.fail("a finite number, or a hexadecimal float in a string such as \"0x1.8p+1\"");
+    if (std::fabs(*value) > largest) field.fail("a number from -2^64 to 2^64");
     return *value;
 }
 
 // The length is compared first, so that an element's error can name its index.
 template <std::size_t count>
-std::array<double, count> numbers(const Place& place) {
-    if (!place.value.is_array() || place.value.size() != count) {
-        place.fail(fmt::format("an array of {} numbers", count),
-                   place.value.is_array() ? fmt::format("{} elements", place.value.size()) : place.value.type_name());
+std::array<double, count> numbers(const JsonField& field) {
+    if (!field.value.is_array() || field.value.size() != count) {
+        field.fail(fmt::format("an array of {} numbers", count),
+                   field.value.is_array() ? fmt::format("{} elements", field.value.size()) : field.value.type_name());
     }
     std::array<double, count> result{};
-    for (std::size_t i = 0; i < count; ++i) result[i] = number(place[i]);
+    for (std::size_t i = 0; i < count; ++i) result[i] = number(field[i]);
     return result;
 }
 
 // Requires each key in `wanted` and no other.
-void check_keys(const Place& camera, std::span<const std::string_view> wanted) {
+void check_keys(const JsonField& camera, std::span<const std::string_view> wanted) {
     for (const auto& [key, value] : camera.value.items()) {
         if (std::ranges::find(wanted, key) == wanted.end())
             camera.fail(fmt::format("only the keys {}", fmt::join(wanted, ", ")), quoted_with_suggestion(key, wanted));
@@ -107,14 +107,14 @@ double squared_sine(const Vec3d& a, const Vec3d& b) noexcept {
     return aa > 0 && bb > 0 ? dot_product(c, c) / aa / bb : 0;
 }
 
-Vec3d vector(const Place& place) {
-    const auto [x, y, z] = numbers<3>(place);
+Vec3d vector(const JsonField& field) {
+    const auto [x, y, z] = numbers<3>(field);
     return {x, y, z};
 }
 
 // Checks the conditions that the matrices need for their divisions: an angle with a tangent, near different from far
 // and from 0, an eye different from its center, an up that is not along the line of sight.
-LookAt parse_look_at(const Place& camera) {
+LookAt parse_look_at(const JsonField& camera) {
     check_keys(camera, look_at_keys);
     const LookAt result{.eye = vector(camera["eye"]),
                         .center = vector(camera["center"]),
@@ -154,9 +154,9 @@ bool is_singular(std::array<double, 16> rows) {
     return false;
 }
 
-pipeline::Matrix matrix(const Place& place) {
-    const auto entries = numbers<16>(place);
-    if (is_singular(entries)) place.fail("a matrix that can be inverted", "one that cannot");
+pipeline::Matrix matrix(const JsonField& field) {
+    const auto entries = numbers<16>(field);
+    if (is_singular(entries)) field.fail("a matrix that can be inverted", "one that cannot");
     return matrix_of(entries);
 }
 
@@ -180,7 +180,7 @@ std::string to_json(const pipeline::Matrix& matrix) {
 pipeline::View parse_camera(const std::string& text, const std::string& name, double aspect) {
     const FloatEnvironment environment;
     const json document = parse_strict_json(text, name, "a camera in JSON");
-    const Place camera{name, "", document};
+    const JsonField camera{name, "", document};
     if (!document.is_object()) camera.fail("an object", document.type_name());
     for (const auto& [key, value] : document.items()) {  // a misspelled key must not select the form
         if (std::ranges::find(all_keys, key) == std::end(all_keys))

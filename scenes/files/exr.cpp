@@ -187,7 +187,7 @@ class PartReader {
     }
 
     // memcpy, because a channel may begin at any byte of a pixel. A half fills the low 16 bits of its word.
-    void copy_codes(const ChannelPlace& source, Image& image, std::size_t channel) const {
+    void copy_codes(const ChannelLayout& source, Image& image, std::size_t channel) const {
         const auto channels = static_cast<std::size_t>(image.channels());
         const std::byte* from = part_.bytes.data() + source.offset;
         for (std::size_t i = channel; i < image.codes.size(); i += channels, from += pixel_bytes_) {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "scenes/gltf/document/container.h"
-#include "scenes/gltf/document/place.h"
+#include "scenes/gltf/document/file_location.h"
 #include "scenes/images/image_module.h"
 
 namespace strata::scenes {
@@ -26,11 +26,12 @@ struct ImageHeader {
     std::uint32_t width = 0, height = 0;
 };
 
-// Throws InputError at `place` for anything except a PNG or JPEG of permitted size.
-[[nodiscard]] ImageHeader read_image_header(Bytes bytes, const Place& place);
+// Throws InputError at `location` for anything except a PNG or JPEG of permitted size.
+[[nodiscard]] ImageHeader read_image_header(Bytes bytes, const FileLocation& location);
 
 // Returns width * height * 4 codes, top row first. `header` must be read_image_header's result for the same bytes.
-[[nodiscard]] std::vector<std::uint8_t> decode_image(Bytes bytes, const ImageHeader& header, const Place& place);
+[[nodiscard]] std::vector<std::uint8_t> decode_image(Bytes bytes, const ImageHeader& header,
+                                                     const FileLocation& location);
 
 // OpenImageIO's reader for a file's ending: .png, .jpg, .jpeg, .ppm, .pgm, .pbm, .pnm, .tga, .bmp, .hdr, .tif or .tiff,
 // in either case. Null for other endings.

@@ -32,11 +32,11 @@ void write_exr_parts(const std::string& path, std::span<const PartSource> parts)
 [[nodiscard]] StoredSpace stored_space(pipeline::ColorSpace space) noexcept;
 
 // The offset and the type of a channel in a pixel of a part.
-struct ChannelPlace {
+struct ChannelLayout {
     std::size_t offset = 0;
     StoredType type = StoredType::single;
 };
-[[nodiscard]] std::optional<ChannelPlace> find_channel(const PartHeader& header, const std::string& name);
+[[nodiscard]] std::optional<ChannelLayout> find_channel(const PartHeader& header, const std::string& name);
 
 // The writers and readers of the formats; image_io.cpp chooses. Readers throw InputError, writers SystemError.
 void write_png(const std::string& path, const OutputColor& image);

@@ -28,14 +28,15 @@ bool is_jpeg(Bytes bytes) { return bytes.size() >= 3 && big_endian16(bytes, 0) =
 
 // `least_bytes` is the size of the smallest file that can contain an image of this size: a larger claim is rejected
 // before memory for its texels is allocated.
-void check_size(const ImageHeader& header, std::uint64_t least_bytes, std::size_t bytes, const Place& place) {
+void check_size(const ImageHeader& header, std::uint64_t least_bytes, std::size_t bytes, const FileLocation& location) {
     const std::string size = std::to_string(header.width) + " x " + std::to_string(header.height);
-    if (header.width == 0 || header.height == 0) place.fail("IMAGE_DATA_INVALID", "an image with texels", size);
+    if (header.width == 0 || header.height == 0) location.fail("IMAGE_DATA_INVALID", "an image with texels", size);
     if (header.width > max_image_side || header.height > max_image_side)
-        place.fail("VALUE_NOT_IN_RANGE", "an image of at most 16384 x 16384", size);
+        location.fail("VALUE_NOT_IN_RANGE", "an image of at most 16384 x 16384", size);
     if (least_bytes > bytes)
-        place.fail("IMAGE_UNEXPECTED_EOS", "at least " + std::to_string(least_bytes) + " bytes for " + size + " texels",
-                   std::to_string(bytes));
+        location.fail("IMAGE_UNEXPECTED_EOS",
+                      "at least " + std::to_string(least_bytes) + " bytes for " + size + " texels",
+                      std::to_string(bytes));
 }
 
 // The checksum covers the chunk's type and data, PNG 5.5; the table has its value for each byte.
@@ -57,34 +58,35 @@ std::uint32_t crc32(Bytes bytes) {
 
 // Requires whole chunks with correct checksums up to IEND: libpng, which prints messages of its own, never sees
 // accidental damage.
-void check_png_chunks(Bytes bytes, const Place& place) {
+void check_png_chunks(Bytes bytes, const FileLocation& location) {
     constexpr std::size_t frame = 12;  // length, type, checksum
     constexpr std::uint32_t iend = 0x49454e44;
     for (std::size_t at = png_signature.size();;) {
         const std::size_t left = bytes.size() - at;
         if (left < frame || big_endian32(bytes, at) > left - frame)
-            place.fail("IMAGE_UNEXPECTED_EOS", "PNG chunks up to IEND", "an end within a chunk");
+            location.fail("IMAGE_UNEXPECTED_EOS", "PNG chunks up to IEND", "an end within a chunk");
         const std::size_t length = big_endian32(bytes, at);
         if (crc32(bytes.subspan(at + 4, length + 4)) != big_endian32(bytes, at + 8 + length))
-            place.fail("IMAGE_DATA_INVALID", "PNG chunks with right checksums",
-                       "a wrong one at byte " + std::to_string(at + 8 + length));
+            location.fail("IMAGE_DATA_INVALID", "PNG chunks with right checksums",
+                          "a wrong one at byte " + std::to_string(at + 8 + length));
         if (big_endian32(bytes, at + 4) == iend) return;
         at += frame + length;
     }
 }
 
-ImageHeader png_header(Bytes bytes, const Place& place) {
+ImageHeader png_header(Bytes bytes, const FileLocation& location) {
     // A PNG begins with the signature of 8 bytes and the chunk IHDR, PNG 11.2.2.
     constexpr std::size_t ihdr = 8, end = 33;  // length, "IHDR", 13 bytes, checksum
-    if (bytes.size() < end) place.fail("IMAGE_UNEXPECTED_EOS", "a PNG header", std::to_string(bytes.size()) + " bytes");
+    if (bytes.size() < end)
+        location.fail("IMAGE_UNEXPECTED_EOS", "a PNG header", std::to_string(bytes.size()) + " bytes");
     if (big_endian32(bytes, ihdr) != 13 || big_endian32(bytes, ihdr + 4) != 0x49484452)
-        place.fail("IMAGE_DATA_INVALID", "an IHDR chunk first", "another");
+        location.fail("IMAGE_DATA_INVALID", "an IHDR chunk first", "another");
     const ImageHeader header{ImageKind::png, big_endian32(bytes, ihdr + 8), big_endian32(bytes, ihdr + 12)};
     const std::uint64_t bits = byte_at(bytes, ihdr + 16);  // at least one channel of that many bits per texel
     // The size of the unpacked rows, counted as one channel: a lower bound if the file has several channels.
     const std::uint64_t raw = (std::uint64_t{header.width} * bits + 7) / 8 * header.height;
-    check_size(header, raw / deflate_ratio, bytes.size(), place);
-    check_png_chunks(bytes, place);
+    check_size(header, raw / deflate_ratio, bytes.size(), location);
+    check_png_chunks(bytes, location);
     return header;
 }
 
@@ -108,37 +110,38 @@ std::uint32_t next_marker(Bytes bytes, std::size_t& at) {
 
 // Iterates over all marker segments: the frame gives the size, and the scans are counted, because a small progressive
 // file can require any number of passes over the image.
-ImageHeader jpeg_header(Bytes bytes, const Place& place) {
+ImageHeader jpeg_header(Bytes bytes, const FileLocation& location) {
     ImageHeader header{ImageKind::jpeg, 0, 0};
     constexpr std::uint32_t scan = 0xda, end_of_image = 0xd9;
     int scans = 0;
     std::size_t at = 2;
     for (std::uint32_t marker = next_marker(bytes, at); marker != end_of_image; marker = next_marker(bytes, at)) {
-        if (marker == 0 || at + 8 > bytes.size()) place.fail("IMAGE_UNEXPECTED_EOS", "an end-of-image marker", "none");
+        if (marker == 0 || at + 8 > bytes.size())
+            location.fail("IMAGE_UNEXPECTED_EOS", "an end-of-image marker", "none");
         if (is_frame(marker)) {
-            if (header.width != 0) place.fail("IMAGE_DATA_INVALID", "one frame", "another");
+            if (header.width != 0) location.fail("IMAGE_DATA_INVALID", "one frame", "another");
             header = {ImageKind::jpeg, big_endian16(bytes, at + 5), big_endian16(bytes, at + 3)};
             // A block of 64 samples takes at least a bit, so a byte holds at most 512 samples.
-            check_size(header, std::uint64_t{header.width} * header.height / 512, bytes.size(), place);
+            check_size(header, std::uint64_t{header.width} * header.height / 512, bytes.size(), location);
             const std::uint32_t channels = byte_at(bytes, at + 7);
             if (channels != 1 && channels != 3)
-                place.fail("IMAGE_DATA_INVALID", "a JPEG of 1 or 3 channels", std::to_string(channels));
+                location.fail("IMAGE_DATA_INVALID", "a JPEG of 1 or 3 channels", std::to_string(channels));
         }
         if (marker == scan && ++scans > max_jpeg_scans)
-            place.fail("IMAGE_DATA_INVALID", "at most " + std::to_string(max_jpeg_scans) + " scans", "more");
+            location.fail("IMAGE_DATA_INVALID", "at most " + std::to_string(max_jpeg_scans) + " scans", "more");
         // TEM, 0x01, has no length; every other marker here has a 16-bit length that includes itself.
         if (marker != 0x01) at += big_endian16(bytes, at);
     }
-    if (header.width == 0 || scans == 0) place.fail("IMAGE_DATA_INVALID", "a frame and a scan", "none");
+    if (header.width == 0 || scans == 0) location.fail("IMAGE_DATA_INVALID", "a frame and a scan", "none");
     return header;
 }
 
 }  // namespace
 
-ImageHeader read_image_header(Bytes bytes, const Place& place) {
-    if (is_png(bytes)) return png_header(bytes, place);
-    if (is_jpeg(bytes)) return jpeg_header(bytes, place);
-    place.fail("IMAGE_UNRECOGNIZED_FORMAT", "a PNG or JPEG image", "neither");
+ImageHeader read_image_header(Bytes bytes, const FileLocation& location) {
+    if (is_png(bytes)) return png_header(bytes, location);
+    if (is_jpeg(bytes)) return jpeg_header(bytes, location);
+    location.fail("IMAGE_UNRECOGNIZED_FORMAT", "a PNG or JPEG image", "neither");
 }
 
 }  // namespace strata::scenes

@@ -67,10 +67,10 @@ StoredSpace stored_space(pipeline::ColorSpace space) noexcept {
 }
 
 // Channels are interleaved in a pixel's bytes, in the header's order and without padding.
-std::optional<ChannelPlace> find_channel(const PartHeader& header, const std::string& name) {
+std::optional<ChannelLayout> find_channel(const PartHeader& header, const std::string& name) {
     std::size_t offset = 0;
     for (const StoredChannel& channel : header.channels) {
-        if (channel.name == name) return ChannelPlace{offset, channel.type};
+        if (channel.name == name) return ChannelLayout{offset, channel.type};
         offset += size_of(channel.type);
     }
     return std::nullopt;
@@ -103,12 +103,12 @@ void write_image(const std::string& path, const OutputColor& image, ImageFile ki
 }
 
 // image_header.cpp has read the header; the decoder rejects an image that differs from it.
-std::vector<std::uint8_t> decode_image(Bytes bytes, const ImageHeader& header, const Place& place) {
+std::vector<std::uint8_t> decode_image(Bytes bytes, const ImageHeader& header, const FileLocation& location) {
     return image_module().decode({.bytes = bytes,
                                   .reader = header.kind == ImageKind::png ? "png" : "jpeg",
                                   .width = static_cast<int>(header.width),
                                   .height = static_cast<int>(header.height)},
-                                 place);
+                                 location);
 }
 
 std::vector<FileImage> read_images(const std::string& path) {

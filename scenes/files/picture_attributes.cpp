@@ -28,7 +28,7 @@ std::size_t big_endian32(std::string_view bytes, std::size_t at) {
 Attributes png_attributes(const std::string& path) {
     constexpr std::size_t largest = std::size_t{1} << 30, signature = 8, around = 12, type = 4, data = 8;
     const std::string file = read_text_file(path, largest);
-    static_cast<void>(read_image_header(std::as_bytes(std::span{file}), Place{path, ""}));
+    static_cast<void>(read_image_header(std::as_bytes(std::span{file}), FileLocation{path, ""}));
     const std::string_view bytes = file;
     Attributes attributes;
     for (std::size_t at = signature; at + around <= bytes.size(); at += around + big_endian32(bytes, at)) {

@@ -51,29 +51,29 @@ const char* reader_of(const std::string& path) {
 StoredCodes read_codes(const std::string& path, const char* reader) {
     const std::string file = read_text_file(path, max_png_bytes);
     const Bytes bytes = std::as_bytes(std::span{file});
-    const Place place{path, ""};
+    const FileLocation location{path, ""};
     EncodedPicture picture{.bytes = bytes, .reader = reader};
     // Damage that libpng and libjpeg would report on their own is found before they read the file.
     const bool is_png = reader == std::string_view{"png"};
     if (is_png || reader == std::string_view{"jpeg"}) {
-        const ImageHeader header = read_image_header(bytes, place);
+        const ImageHeader header = read_image_header(bytes, location);
         if (is_png != (header.kind == ImageKind::png))
             throw InputError(path, "format", is_png ? "a PNG" : "a JPEG", is_png ? "a JPEG" : "a PNG");
         picture.width = static_cast<int>(header.width);
         picture.height = static_cast<int>(header.height);
     }
-    return image_module().decode_codes(picture, place);
+    return image_module().decode_codes(picture, location);
 }
 
 std::vector<FileImage> read_png(const std::string& path) {
     const std::string file = read_text_file(path, max_png_bytes);
     const Bytes bytes = std::as_bytes(std::span{file});
-    const Place place{path, ""};
-    const ImageHeader header = read_image_header(bytes, place);  // chunks are whole: libpng prints nothing
+    const FileLocation location{path, ""};
+    const ImageHeader header = read_image_header(bytes, location);  // chunks are whole: libpng prints nothing
     // PNG 11.2.2: bit depth and colour type, of which bit 1 means colour.
     if (header.kind != ImageKind::png || bytes[24] != std::byte{8} || (bytes[25] & std::byte{2}) == std::byte{0})
         throw InputError(path, "format", "a PNG with 8-bit colours", "another image");
-    const std::vector<std::uint8_t> codes = decode_image(bytes, header, place);
+    const std::vector<std::uint8_t> codes = decode_image(bytes, header, location);
     Image image = Image::for_overwrite(Format::rgba8, static_cast<int>(header.width), static_cast<int>(header.height));
     std::copy_n(codes.data(), codes.size(), image.codes.data());
     return {{"", "color", std::move(image)}};

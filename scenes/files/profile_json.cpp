@@ -93,12 +93,12 @@ std::string shown(const json& value) {  // dump recurses: unsafe if nested deepl
                                  : value.dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 64);
 }
 
-void check_keys(const json& object, const Names& allowed, const std::string& file, const std::string& place) {
-    if (!object.is_object()) throw InputError(file, place, "an object", shown(object));
+void check_keys(const json& object, const Names& allowed, const std::string& file, const std::string& location) {
+    if (!object.is_object()) throw InputError(file, location, "an object", shown(object));
     // A misspelled key is an error: if it were ignored, its field would silently keep the base's value.
     for (const auto& [key, value] : object.items())
         if (std::ranges::find(allowed, key) == allowed.end())
-            throw InputError(file, place, "a key of a profile", quoted_with_suggestion(key, allowed));
+            throw InputError(file, location, "a key of a profile", quoted_with_suggestion(key, allowed));
 }
 
 // A required string, which may be empty.
@@ -189,11 +189,11 @@ std::vector<std::string> open_of(const json& document, const std::string& file) 
     const std::string expected = "an array of keys of a profile, such as raster.snap";
     if (!listed.is_array()) throw InputError(file, "/open", expected, shown(listed));
     for (std::size_t i = 0; i < listed.size(); ++i) {
-        const std::string place = fmt::format("/open/{}", i);
-        if (!listed[i].is_string()) throw InputError(file, place, "a key of a profile", shown(listed[i]));
+        const std::string location = fmt::format("/open/{}", i);
+        if (!listed[i].is_string()) throw InputError(file, location, "a key of a profile", shown(listed[i]));
         open.push_back(listed[i].get<std::string>());
         if (std::ranges::find(known, open.back()) == known.end())
-            throw InputError(file, place, "a key of a profile", quoted_with_suggestion(open.back(), known));
+            throw InputError(file, location, "a key of a profile", quoted_with_suggestion(open.back(), known));
     }
     return open;
 }

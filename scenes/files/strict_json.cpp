@@ -22,7 +22,7 @@ class Keys {
 
     // Returning false would drop a value; all are kept.
     bool operator()(int depth, json::parse_event_t event, const json& parsed) {
-        if (depth > most_levels) throw InputError(file_, place(), "at most 64 levels of arrays and objects", "more");
+        if (depth > most_levels) throw InputError(file_, location(), "at most 64 levels of arrays and objects", "more");
         if (event == json::parse_event_t::object_start) levels_.emplace_back();
         if (event == json::parse_event_t::object_end) levels_.pop_back();
         if (event == json::parse_event_t::key) enter(parsed.get<std::string>());
@@ -38,11 +38,11 @@ class Keys {
     void enter(const std::string& name) {
         Level& level = levels_.back();
         level.last = name;
-        if (!level.names.insert(name).second) throw InputError(file_, place(), "each key once", "this one twice");
+        if (!level.names.insert(name).second) throw InputError(file_, location(), "each key once", "this one twice");
     }
 
     // The path of keys of the enclosing objects; array positions are not known here.
-    [[nodiscard]] std::string place() const {
+    [[nodiscard]] std::string location() const {
         std::string text;
         for (const Level& level : levels_) text += "/" + level.last;
         return text.empty() ? "/" : text;

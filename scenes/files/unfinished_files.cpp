@@ -69,24 +69,24 @@ int enter(const std::string& path, bool is_folder) {
 }
 
 // Two messages: one can be written while the handler reads the other.
-struct Sentence {
+struct Message {
     std::size_t size = 0;
     char text[1000] = {};
 };
-Sentence sentences[2];
+Message messages[2];
 std::atomic<int> current{0};
 bool starts_line = false;  // standard error is a terminal
 
 // Prints a line end first on a terminal, which may show "^C" or a progress bar on the line.
 void say_interrupted() noexcept {
-    const Sentence& sentence = sentences[current];
-    const bool is_empty = sentence.size == 0;
+    const Message& message = messages[current];
+    const bool is_empty = message.size == 0;
     const auto put = [](const char* text, std::size_t size) { static_cast<void>(!::write(STDERR_FILENO, text, size)); };
     constexpr std::string_view begin = "strata: interrupted", between = "; ";
     if (starts_line) put("\n", 1);
     put(begin.data(), begin.size());
     if (!is_empty) put(between.data(), between.size());
-    put(sentence.text, sentence.size);
+    put(message.text, message.size);
     put("\n", 1);
 }
 
@@ -127,9 +127,9 @@ void handle_interrupt(int signal) noexcept {
 int enter_unfinished_file(const std::string& path) { return enter(path, false); }
 int enter_unfinished_folder(const std::string& path) { return enter(path, true); }
 
-void forget_unfinished_file(int place) noexcept { slots[place].state = Slot::empty; }
+void forget_unfinished_file(int slot) noexcept { slots[slot].state = Slot::empty; }
 
-void end_group_when_interrupted(int of_command) noexcept { group = of_command; }
+void kill_group_on_interrupt(int of_command) noexcept { group = of_command; }
 
 void remove_unfinished_files() noexcept {
     constexpr int most_levels = 64;
@@ -139,16 +139,16 @@ void remove_unfinished_files() noexcept {
         if (slot.state == Slot::active) remove_tree(AT_FDCWD, slot.path, slot.is_folder ? most_levels : 0);
 }
 
-void tell_when_interrupted(std::string_view sentence) noexcept {
+void set_interrupt_message(std::string_view message) noexcept {
     const int next = 1 - current;
-    Sentence& to = sentences[next];
-    to.size = std::min(sentence.size(), sizeof to.text);
-    std::transform(sentence.begin(), sentence.begin() + static_cast<std::ptrdiff_t>(to.size), to.text,
+    Message& to = messages[next];
+    to.size = std::min(message.size(), sizeof to.text);
+    std::transform(message.begin(), message.begin() + static_cast<std::ptrdiff_t>(to.size), to.text,
                    [](char c) { return (c >= 0 && c < 0x20) || c == 0x7f ? '?' : c; });
     current = next;
 }
 
-void remove_unfinished_files_when_interrupted() noexcept {
+void install_interrupt_handlers() noexcept {
     starts_line = ::isatty(STDERR_FILENO) == 1;
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU, SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1,
                              SIGUSR2, SIGIO, SIGPWR, SIGSTKFLT})

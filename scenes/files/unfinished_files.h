@@ -15,11 +15,11 @@ namespace strata::scenes {
 // The same for a folder, which is removed with its contents; links in it are not followed.
 [[nodiscard]] int enter_unfinished_folder(const std::string& path);
 
-// Removes the file or folder in slot `place` from the table; the file or folder itself is not changed.
-void forget_unfinished_file(int place) noexcept;
+// Removes the file or folder in slot `slot` from the table; the file or folder itself is not changed.
+void forget_unfinished_file(int slot) noexcept;
 
 // The process group that is sent SIGKILL first, because it may write to those folders. There is one at a time; 0: none.
-void end_group_when_interrupted(int group) noexcept;
+void kill_group_on_interrupt(int group) noexcept;
 
 // Removes every file and folder of the table. Async-signal-safe. Afterwards no more can be entered.
 void remove_unfinished_files() noexcept;
@@ -27,13 +27,13 @@ void remove_unfinished_files() noexcept;
 // Sets the message that is printed to standard error when an interrupt (SIGINT, SIGTERM, SIGHUP) ends the process:
 // "strata: interrupted; ...", one line of at most 1,000 bytes; control characters become '?'. Replaces the previous
 // message; an empty one gives "strata: interrupted".
-void tell_when_interrupted(std::string_view sentence) noexcept;
+void set_interrupt_message(std::string_view message) noexcept;
 
 // Installs signal handlers. For a signal that asks the process to end (SIGINT, SIGTERM, SIGALRM, SIGUSR1, real-time
 // signals and similar ones): remove_unfinished_files(), then _exit(128 + signal), which is 130 for SIGINT; a signal
 // that is ignored at the start (nohup) stays ignored. For a signal of a program fault (SIGABRT, SIGSEGV, ...): the
 // same, then the system's default action with its core file, unless a sanitizer has a handler there. SIGXFSZ is
 // ignored, so that a write beyond the file size limit fails like one on a full disk.
-void remove_unfinished_files_when_interrupted() noexcept;
+void install_interrupt_handlers() noexcept;
 
 }  // namespace strata::scenes

@@ -15,7 +15,8 @@ std::uint32_t bits(const std::byte* bytes, ComponentType type) {  // little endi
 
 }  // namespace
 
-AccessorReader::AccessorReader(const tinygltf::Model& model, std::size_t accessor, Buffers& buffers, const Place& place)
+AccessorReader::AccessorReader(const tinygltf::Model& model, std::size_t accessor, Buffers& buffers,
+                               const FileLocation& location)
     : count_{model.accessors[accessor].count},
       components_{static_cast<std::size_t>(
           tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(model.accessors[accessor].type)))},
@@ -30,10 +31,10 @@ AccessorReader::AccessorReader(const tinygltf::Model& model, std::size_t accesso
         base_ = buffers.view(view).subspan(a.byteOffset);
         if (model.bufferViews[view].byteStride != 0) stride_ = model.bufferViews[view].byteStride;
     }
-    if (a.sparse.isSparse) prepare_sparse(a, buffers, place);
+    if (a.sparse.isSparse) prepare_sparse(a, buffers, location);
 }
 
-void AccessorReader::prepare_sparse(const tinygltf::Accessor& a, Buffers& buffers, const Place& place) {
+void AccessorReader::prepare_sparse(const tinygltf::Accessor& a, Buffers& buffers, const FileLocation& location) {
     sparse_count_ = static_cast<std::size_t>(a.sparse.count);
     sparse_type_ = static_cast<ComponentType>(a.sparse.indices.componentType);
     sparse_indices_ = buffers.view(static_cast<std::size_t>(a.sparse.indices.bufferView))
@@ -41,7 +42,7 @@ void AccessorReader::prepare_sparse(const tinygltf::Accessor& a, Buffers& buffer
     sparse_values_ = buffers.view(static_cast<std::size_t>(a.sparse.values.bufferView))
                          .subspan(static_cast<std::size_t>(a.sparse.values.byteOffset));
     // Contents are not covered by check.h, which reads no buffer: the indices are checked here, once.
-    const Place indices = place.under("sparse").under("indices");
+    const FileLocation indices = location.under("sparse").under("indices");
     for (std::size_t k = 0; k < sparse_count_; ++k) {
         if (sparse_index(k) >= count_)
             indices.fail("ACCESSOR_SPARSE_INDEX_OOB", "indices below " + std::to_string(count_),
@@ -96,7 +97,8 @@ const AccessorReader& Accessors::operator[](int accessor) {
     // Primitives share accessors, so sparse indices are checked once per accessor, not once per primitive.
     const auto found = readers_.find(accessor);
     if (found != readers_.end()) return found->second;
-    return readers_.emplace(accessor, AccessorReader{model_, index, buffers_, document_.at("accessors", index).place()})
+    return readers_
+        .emplace(accessor, AccessorReader{model_, index, buffers_, document_.at("accessors", index).location()})
         .first->second;
 }
 

@@ -17,7 +17,7 @@ namespace strata::scenes {
 // Refers to the document's buffers, which must outlive it. The caller must keep indices in 0 to count() - 1.
 class AccessorReader {
   public:
-    AccessorReader(const tinygltf::Model& model, std::size_t accessor, Buffers& buffers, const Place& place);
+    AccessorReader(const tinygltf::Model& model, std::size_t accessor, Buffers& buffers, const FileLocation& location);
 
     [[nodiscard]] std::size_t count() const { return count_; }
     [[nodiscard]] std::size_t components() const { return components_; }  // 1 to 4; matrices are not read
@@ -28,7 +28,7 @@ class AccessorReader {
   private:
     [[nodiscard]] const std::byte* at(std::size_t i) const;  // null: zero
     [[nodiscard]] std::uint32_t sparse_index(std::size_t k) const;
-    void prepare_sparse(const tinygltf::Accessor& accessor, Buffers& buffers, const Place& place);
+    void prepare_sparse(const tinygltf::Accessor& accessor, Buffers& buffers, const FileLocation& location);
 
     // stride_: bytes from one element to the next; size_: bytes of an element.
     std::size_t count_, components_, stride_ = 0, size_;

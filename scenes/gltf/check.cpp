@@ -87,7 +87,7 @@ void check_extensions(const JsonAt& root, Warnings& warnings, Faults& faults) {
     faults.collect_each(root, "extensionsUsed", [&](const JsonAt& used) {
         // Each material that transmits light has a warning of its own (material.cpp).
         if (!is_implemented(used.string()) && used.string() != "KHR_materials_transmission")
-            warnings.add(used.place().pointer, "extension " + one_line(used.string()) + " is ignored");
+            warnings.add(used.location().pointer, "extension " + one_line(used.string()) + " is ignored");
     });
 }
 

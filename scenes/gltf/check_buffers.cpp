@@ -20,9 +20,9 @@ void check_view(const JsonAt& view, const JsonAt& root, const std::vector<std::u
     const JsonAt length = view.member("byteLength");
     const std::uint64_t end = byte_offset(view) + length.integer(1, max_bytes);
     if (end > buffer_lengths[buffer])
-        length.place().fail("BUFFER_VIEW_TOO_LONG",
-                            "an end within the buffer's " + std::to_string(buffer_lengths[buffer]) + " bytes",
-                            "one at " + std::to_string(end));
+        length.location().fail("BUFFER_VIEW_TOO_LONG",
+                               "an end within the buffer's " + std::to_string(buffer_lengths[buffer]) + " bytes",
+                               "one at " + std::to_string(end));
     // glTF's bounds for a stride: 4 to 252 and a multiple of 4.
     const auto stride = view.find("byteStride");
     if (stride && stride->integer(4, 252) % 4 != 0) stride->fail("VALUE_MULTIPLE_OF", "a multiple of 4");
@@ -38,16 +38,16 @@ struct Range {
 // fits 64 bits (see check.h).
 void check_range(const JsonAt& at, const JsonAt& root, const Range& range) {
     const std::size_t view_index = at.member("bufferView").index(root.size("bufferViews"));
-    const JsonAt view{root.json()["bufferViews"][view_index], root.place().under("bufferViews").under(view_index)};
+    const JsonAt view{root.json()["bufferViews"][view_index], root.location().under("bufferViews").under(view_index)};
     const std::uint64_t offset = byte_offset(at);
-    const Place offset_place = at.has("byteOffset") ? at.place().under("byteOffset") : at.place();
+    const FileLocation offset_location = at.has("byteOffset") ? at.location().under("byteOffset") : at.location();
     const std::string multiple = "a multiple of " + std::to_string(range.component_size);
     if (offset % range.component_size != 0)
-        offset_place.fail("ACCESSOR_OFFSET_ALIGNMENT", multiple, std::to_string(offset));
+        offset_location.fail("ACCESSOR_OFFSET_ALIGNMENT", multiple, std::to_string(offset));
     const std::uint64_t total = offset + byte_offset(view);
     if (total % range.component_size != 0)
-        offset_place.fail("ACCESSOR_TOTAL_OFFSET_ALIGNMENT", multiple + " with the bufferView's",
-                          std::to_string(total));
+        offset_location.fail("ACCESSOR_TOTAL_OFFSET_ALIGNMENT", multiple + " with the bufferView's",
+                             std::to_string(total));
     const auto stride_at = view.find("byteStride");
     const std::uint64_t stride = stride_at ? stride_at->integer(4, 252) : range.size;
     if (stride < range.size)
@@ -56,8 +56,8 @@ void check_range(const JsonAt& at, const JsonAt& root, const Range& range) {
     const std::uint64_t end = offset + stride * (range.count - 1) + range.size;
     const std::uint64_t length = view.member("byteLength").integer(1, max_bytes);
     if (end > length)
-        at.place().fail("ACCESSOR_TOO_LONG", "an end within the bufferView's " + std::to_string(length) + " bytes",
-                        "one at " + std::to_string(end));
+        at.location().fail("ACCESSOR_TOO_LONG", "an end within the bufferView's " + std::to_string(length) + " bytes",
+                           "one at " + std::to_string(end));
 }
 
 ComponentType component_type(const JsonAt& at) {

@@ -22,12 +22,12 @@ void check_listed(const JsonAt& owner, const char* key, std::initializer_list<in
 void check_image(const JsonAt& image, const JsonAt& root) {
     const bool has_uri = image.has("uri"), has_view = image.has("bufferView");
     if (has_uri == has_view)
-        image.place().fail("ONE_OF_MISMATCH", "either uri or bufferView", has_uri ? "both" : "neither");
+        image.location().fail("ONE_OF_MISMATCH", "either uri or bufferView", has_uri ? "both" : "neither");
     if (has_uri) (void)image.member("uri").string();
     check_reference(image, "bufferView", root, "bufferViews");
     const auto media_type = image.find("mimeType");
     if (media_type) (void)media_type->string();
-    if (has_view && !media_type) image.place().fail("UNSATISFIED_DEPENDENCY", "mimeType next to bufferView", "none");
+    if (has_view && !media_type) image.location().fail("UNSATISFIED_DEPENDENCY", "mimeType next to bufferView", "none");
 }
 
 // The limit of the angle is that of scenes/numbers/elementary.h.
@@ -48,8 +48,8 @@ void check_base_color_texture(const JsonAt& info, const JsonAt& root) {
     if (const auto set = info.find("texCoord")) (void)set->integer(0, max_bytes);
     check_texture_transform(info);
     if (root.json()["textures"][texture].contains("source")) return;
-    const Place place = root.place().under("textures").under(texture);
-    place.fail("UNDEFINED_PROPERTY", "a PNG or JPEG image as source", "none (an extension would have to supply it)");
+    const FileLocation location = root.location().under("textures").under(texture);
+    location.fail("UNDEFINED_PROPERTY", "a PNG or JPEG image as source", "none (an extension would have to supply it)");
 }
 
 // glTF 2.0, 3.9.2: linear r g b a, each from 0 to 1. JSON cannot write a NaN.
@@ -65,7 +65,7 @@ void check_metallic_roughness(const JsonAt& pbr, const JsonAt& root, Warnings& w
     if (const auto texture = pbr.find("baseColorTexture")) check_base_color_texture(texture->object(), root);
     for (const char* key : {"metallicFactor", "roughnessFactor", "metallicRoughnessTexture"})
         if (const auto ignored = pbr.find(key))
-            warnings.add(ignored->place().pointer, "metallic and roughness are ignored: lighting is diffuse");
+            warnings.add(ignored->location().pointer, "metallic and roughness are ignored: lighting is diffuse");
 }
 
 // Ignored features get a warning and no check: a fault in a normal map does not prevent the scene from being drawn.
@@ -83,10 +83,10 @@ void check_material(const JsonAt& material, const JsonAt& root, Warnings& warnin
         const auto unlit = extensions->find("KHR_materials_unlit");
         if (unlit) (void)unlit->object();
     }
-    if (const auto it = material.find("normalTexture")) warnings.add(it->place().pointer, "normal maps are ignored");
-    if (const auto it = material.find("occlusionTexture")) warnings.add(it->place().pointer, "occlusion is ignored");
+    if (const auto it = material.find("normalTexture")) warnings.add(it->location().pointer, "normal maps are ignored");
+    if (const auto it = material.find("occlusionTexture")) warnings.add(it->location().pointer, "occlusion is ignored");
     for (const char* key : {"emissiveTexture", "emissiveFactor"})
-        if (const auto it = material.find(key)) warnings.add(it->place().pointer, "emission is ignored");
+        if (const auto it = material.find(key)) warnings.add(it->location().pointer, "emission is ignored");
 }
 
 }  // namespace

@@ -70,8 +70,8 @@ struct MeshChecker {
     // `count` is that of the previous attributes, empty for the first: all must be equal.
     void check_attribute(const JsonAt& attribute, const std::string& name, std::optional<std::uint64_t>& count) const {
         if (!is_attribute_name(name))
-            attribute.place().fail("MESH_PRIMITIVE_INVALID_ATTRIBUTE", "a name of glTF's or one that begins with _",
-                                   in_quotes(name));
+            attribute.location().fail("MESH_PRIMITIVE_INVALID_ATTRIBUTE", "a name of glTF's or one that begins with _",
+                                      in_quotes(name));
         const AccessorFormat f = format(root.json(), attribute.index(accessors));
         if (!is_allowed(name, f, is_quantized))
             attribute.fail("MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT",
@@ -82,9 +82,9 @@ struct MeshChecker {
         if (f.offset % 4 != 0 || step % 4 != 0)
             attribute.fail("MESH_PRIMITIVE_ACCESSOR_UNALIGNED", "vertices at multiples of 4 bytes");
         if (count.value_or(f.count) != f.count)
-            attribute.place().fail("MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT",
-                                   "as many elements as the other attributes: " + std::to_string(*count),
-                                   std::to_string(f.count));
+            attribute.location().fail("MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT",
+                                      "as many elements as the other attributes: " + std::to_string(*count),
+                                      std::to_string(f.count));
         count = f.count;
     }
 
@@ -122,8 +122,8 @@ struct MeshChecker {
         if (!extensions || !extensions->find("KHR_draco_mesh_compression")) return;
         for (const Json& accessor : attributes.json())
             if (!root.json()["accessors"][accessor.get<std::size_t>()].contains("bufferView"))
-                extensions->place().fail("UNSUPPORTED_EXTENSION", "plain data next to KHR_draco_mesh_compression",
-                                         "none");
+                extensions->location().fail("UNSUPPORTED_EXTENSION", "plain data next to KHR_draco_mesh_compression",
+                                            "none");
     }
 
     void check_primitive(const JsonAt& primitive, Warnings& warnings) const {
@@ -133,19 +133,19 @@ struct MeshChecker {
             check_attribute(attributes.member(item.key()), item.key(), count);
         check_draco(primitive, attributes);
         if (!attributes.has("POSITION"))
-            warnings.add(primitive.place().pointer, "a primitive without POSITION is not drawn");
+            warnings.add(primitive.location().pointer, "a primitive without POSITION is not drawn");
         if (const auto indices = primitive.find("indices")) check_indices(*indices);
         if (const auto mode = primitive.find("mode")) (void)mode->integer(0, 6);
         const auto set = texcoord_set(primitive);
         if (set && attributes.has("POSITION") && !attributes.has("TEXCOORD_" + std::to_string(*set)))
-            primitive.place().fail("MESH_PRIMITIVE_TOO_FEW_TEXCOORDS",
-                                   "TEXCOORD_" + std::to_string(*set) + " for the material's texture", "none");
+            primitive.location().fail("MESH_PRIMITIVE_TOO_FEW_TEXCOORDS",
+                                      "TEXCOORD_" + std::to_string(*set) + " for the material's texture", "none");
         // A primitive is drawn as stored; morph targets are not applied.
         if (primitive.has("targets"))
-            warnings.add(primitive.place().under("targets").pointer, "morph targets are ignored");
+            warnings.add(primitive.location().under("targets").pointer, "morph targets are ignored");
         for (const auto& item : attributes.json().items())
             if (item.key().starts_with("COLOR_") && item.key() != "COLOR_0")
-                warnings.add(attributes.place().pointer, "vertex colours beyond COLOR_0 are ignored");
+                warnings.add(attributes.location().pointer, "vertex colours beyond COLOR_0 are ignored");
     }
 };
 

@@ -54,7 +54,7 @@ void check_transform(const JsonAt& node) {
         matrix->numbers(16);
         for (const char* key : {"translation", "rotation", "scale"})
             if (node.has(key))
-                matrix->place().fail("NODE_MATRIX_TRS", "either matrix or translation, rotation and scale", "both");
+                matrix->location().fail("NODE_MATRIX_TRS", "either matrix or translation, rotation and scale", "both");
         for (const int bottom : {3, 7, 11, 15})
             if (matrix->json()[bottom].get<double>() != (bottom == 15 ? 1.0 : 0.0))
                 matrix->fail("NODE_MATRIX_NON_TRS", "0 0 0 1 as the bottom row");
@@ -83,8 +83,8 @@ void check_loops(const JsonAt& root, const std::vector<std::size_t>& parents) {
         // Walks up to a root, a known node, or a node of this walk; the last case is a loop.
         for (; node != no_parent && known[node] == unknown; node = parents[node]) known[node] = on_the_way;
         if (node != no_parent && known[node] == on_the_way)
-            root.place().under("nodes").under(node).fail("NODE_LOOP", "a tree of nodes",
-                                                         "a node that is its own ancestor");
+            root.location().under("nodes").under(node).fail("NODE_LOOP", "a tree of nodes",
+                                                            "a node that is its own ancestor");
         // A second walk marks the path as known, so that every node is visited at most twice.
         for (node = start; node != no_parent && known[node] == on_the_way; node = parents[node]) known[node] = rooted;
     }
@@ -127,10 +127,10 @@ void check_nodes(const JsonAt& root, Warnings& warnings, Faults& faults) {
         check_reference(node, "mesh", root, "meshes");
         check_reference(node, "camera", root, "cameras");
         if (check_reference(node, "skin", root, "skins"))
-            warnings.add(node.place().under("skin").pointer,
+            warnings.add(node.location().under("skin").pointer,
                          "skins are ignored: the mesh stands as stored, moved by its node");
         if (const auto instancing = instancing_of(node)) check_instancing(*instancing, root);
-        if (node.has("weights")) warnings.add(node.place().under("weights").pointer, "morph targets are ignored");
+        if (node.has("weights")) warnings.add(node.location().under("weights").pointer, "morph targets are ignored");
         check_children(node, index, parents);
     });
     faults.collect([&] { check_loops(root, parents); });

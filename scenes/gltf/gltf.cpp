@@ -60,8 +60,8 @@ class SceneBuilder {
         if (count > 0 && scene_.scene_index >= 0 && scene_.scene_index < count)
             return model_.scenes[static_cast<std::size_t>(scene_.scene_index)].nodes;
         if (options_.scene)
-            Place{document_.file, "/scenes"}.fail("UNRESOLVED_REFERENCE", "a scene below " + std::to_string(count),
-                                                  std::to_string(*options_.scene));
+            FileLocation{document_.file, "/scenes"}.fail(
+                "UNRESOLVED_REFERENCE", "a scene below " + std::to_string(count), std::to_string(*options_.scene));
         warnings_.add("/scenes", "the file has no scene: all its nodes are shown");
         std::vector<char> is_child(model_.nodes.size(), 0);
         for (const tinygltf::Node& node : model_.nodes)
@@ -92,17 +92,20 @@ class SceneBuilder {
     pipeline::Matrix finite_product(const PlacedNode& placed, const pipeline::Matrix& own) const {
         const pipeline::Matrix world = pipeline::product(placed.world, own);
         if (!std::ranges::all_of(entries_of(world), [](double v) { return std::isfinite(v); }))
-            place_of(placed).fail("VALUE_NOT_IN_RANGE", "a finite world transform", "an overflow");
+            location_of(placed).fail("VALUE_NOT_IN_RANGE", "a finite world transform", "an overflow");
         return world;
     }
 
-    Place place_of(const PlacedNode& placed) const { return {document_.file, "/nodes/" + std::to_string(placed.node)}; }
+    FileLocation location_of(const PlacedNode& placed) const {
+        return {document_.file, "/nodes/" + std::to_string(placed.node)};
+    }
 
     void add_instances(const std::vector<Drawable>& drawables, const PlacedNode& placed) {
         for (const Drawable& drawable : drawables) {
             const std::uint64_t corners = scene_.list.meshes[drawable.mesh].indices.size();
             if (corners > instanced_left_)
-                place_of(placed).fail("VALUE_NOT_IN_RANGE", "at most 2^31 corners of triangles", "more with this node");
+                location_of(placed).fail("VALUE_NOT_IN_RANGE", "at most 2^31 corners of triangles",
+                                         "more with this node");
             instanced_left_ -= corners;
             scene_.list.instances.push_back({drawable.mesh, drawable.material, placed.world});
         }
@@ -112,14 +115,15 @@ class SceneBuilder {
     // primitive's index.
     std::vector<Drawable> load_mesh(int index) {
         const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(index)];
-        const Place place = document_.at("meshes", static_cast<std::size_t>(index)).place().under("primitives");
+        const FileLocation location =
+            document_.at("meshes", static_cast<std::size_t>(index)).location().under("primitives");
         const std::string name = mesh.name.empty() ? "mesh " + std::to_string(index) : mesh.name;
         std::vector<Drawable> drawables;
         for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
             const tinygltf::Primitive& primitive = mesh.primitives[p];
             const LoadedMaterial& material = materials_[primitive.material];
             auto loaded = load_primitive(
-                {primitive, place.under(p), material, accessors_, budget_, warnings_, options_.color_space});
+                {primitive, location.under(p), material, accessors_, budget_, warnings_, options_.color_space});
             if (!loaded) continue;
             loaded->name = mesh.primitives.size() == 1 ? name : name + "/" + std::to_string(p);
             drawables.push_back({static_cast<std::uint32_t>(scene_.list.meshes.size()), material.index});
@@ -145,7 +149,7 @@ class SceneBuilder {
         const std::string written = c.name.empty() ? node.name : c.name;
         const std::string base = written.empty() ? "camera" : written;
         camera.name = unique_name(base);
-        camera.view = view_of(placed.world, Place{document_.file, "/nodes/" + std::to_string(placed.node)});
+        camera.view = view_of(placed.world, FileLocation{document_.file, "/nodes/" + std::to_string(placed.node)});
         camera.perspective = c.type == "perspective";
         if (camera.perspective) {
             camera.yfov = c.perspective.yfov, camera.aspect = c.perspective.aspectRatio;
@@ -191,7 +195,7 @@ Scene load(const Source& source, const SceneOptions& options, const GltfLimits& 
     scene.name = source.name;
     for (const JsonAt& used : document.root().elements("extensionsUsed")) scene.extensions.push_back(used.string());
     scene.warnings = container.warnings;
-    for (std::string& sentence : warnings.sentences()) scene.warnings.push_back(std::move(sentence));
+    for (std::string& message : warnings.messages()) scene.warnings.push_back(std::move(message));
     return scene;
 }
 

@@ -24,14 +24,15 @@ const AccessorReader* reader_of(const JsonAt& instancing, const char* name, Acce
 
 template <std::size_t n>
 std::array<double, n> value_or(const AccessorReader* reader, std::size_t i, const std::array<double, n>& otherwise,
-                               const Place& place) {
+                               const FileLocation& location) {
     if (reader == nullptr) return otherwise;
     const std::array<float, 4> read = reader->element(i);
     std::array<double, n> value{};
     for (std::size_t c = 0; c < n; ++c) {
         value[c] = double{read[c]};
         if (!std::isfinite(value[c]))
-            place.fail("ACCESSOR_INVALID_FLOAT", "finite numbers", "NaN or infinity at instance " + std::to_string(i));
+            location.fail("ACCESSOR_INVALID_FLOAT", "finite numbers",
+                          "NaN or infinity at instance " + std::to_string(i));
     }
     return value;
 }
@@ -59,9 +60,9 @@ void check_instancing(const JsonAt& instancing, const JsonAt& root) {
             at->fail("INVALID_FORMAT", std::string("an accessor of a format for ") + attribute.name);
         const auto own = accessor["count"].get<std::uint64_t>();
         if (count.value_or(own) != own)
-            at->place().fail("UNEQUAL_ACCESSOR_COUNT",
-                             "as many elements as the other attributes: " + std::to_string(*count),
-                             std::to_string(own));
+            at->location().fail("UNEQUAL_ACCESSOR_COUNT",
+                                "as many elements as the other attributes: " + std::to_string(*count),
+                                std::to_string(own));
         count = own;
     }
     if (!count) given.fail("UNDEFINED_PROPERTY", "TRANSLATION, ROTATION or SCALE");
@@ -72,13 +73,13 @@ std::vector<pipeline::Matrix> instance_transforms(const JsonAt& instancing, Acce
         std::array{reader_of(instancing, "TRANSLATION", accessors), reader_of(instancing, "ROTATION", accessors),
                    reader_of(instancing, "SCALE", accessors)};
     const AccessorReader& any = *(moved != nullptr ? moved : turned != nullptr ? turned : scaled);
-    budget.pay_elements(any.count(), instancing.place());
+    budget.pay_elements(any.count(), instancing.location());
     std::vector<pipeline::Matrix> transforms;
     transforms.reserve(any.count());
     for (std::size_t i = 0; i < any.count(); ++i)
-        transforms.push_back(transform_of(value_or<3>(moved, i, {0, 0, 0}, instancing.place()),
-                                          value_or<4>(turned, i, {0, 0, 0, 1}, instancing.place()),
-                                          value_or<3>(scaled, i, {1, 1, 1}, instancing.place())));
+        transforms.push_back(transform_of(value_or<3>(moved, i, {0, 0, 0}, instancing.location()),
+                                          value_or<4>(turned, i, {0, 0, 0, 1}, instancing.location()),
+                                          value_or<3>(scaled, i, {1, 1, 1}, instancing.location())));
     return transforms;
 }
 

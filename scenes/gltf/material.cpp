@@ -99,9 +99,9 @@ void Materials::read(std::size_t material, pipeline::Material& made, LoadedMater
     const JsonAt at = c_.document.at("materials", material);
     // Neither vertex colours nor textures can raise the material's alpha.
     if (made.alpha_mode == AlphaMode::mask && made.front[3] < made.alpha_cutoff)
-        c_.warnings.add(at.place().pointer, "its alpha is below its cutoff: nothing of it is drawn");
+        c_.warnings.add(at.location().pointer, "its alpha is below its cutoff: nothing of it is drawn");
     if (made.alpha_mode == AlphaMode::blend && made.front[3] == 0)
-        c_.warnings.add(at.place().pointer,
+        c_.warnings.add(at.location().pointer,
                         "its alpha is 0: nothing of it is seen, but its fragments are peeled as layers");
     const auto extensions = at.find("extensions");
     if (extensions) warn_of_transmission(*extensions, made);
@@ -122,7 +122,7 @@ void Materials::warn_of_transmission(const JsonAt& extensions, const pipeline::M
     const double through = std::min(factor->number(), 1.0);
     const std::string option = fmt::format("{}={:.2g}", made.name, std::max(1 - through, 0.05));
     c_.warnings.add(
-        transmission->place().pointer,
+        transmission->location().pointer,
         fmt::format(
             "{} transmits {:.3g} of the light (KHR_materials_transmission), which is not drawn; --alpha {} draws "
             "that material alone blended",
@@ -162,22 +162,22 @@ std::vector<std::uint8_t> Materials::load_image(int image, pipeline::Texture& in
     const auto uri = at.find("uri");
     // A uri's bytes are kept here until they are decoded; a view's remain in the buffer.
     const Resource held =
-        uri ? read_uri(uri->json().get_ref<const std::string&>(), c_.document.folder, uri->place()) : Resource{};
+        uri ? read_uri(uri->json().get_ref<const std::string&>(), c_.document.folder, uri->location()) : Resource{};
     const Bytes bytes =
         uri ? Bytes{held.bytes} : c_.buffers.view(at.member("bufferView").index(c_.model.bufferViews.size()));
-    const Place place = uri ? uri->place() : at.place();
-    const ImageHeader header = read_image_header(bytes, place);
+    const FileLocation location = uri ? uri->location() : at.location();
+    const ImageHeader header = read_image_header(bytes, location);
     const std::string found = header.kind == ImageKind::png ? "image/png" : "image/jpeg";
     const auto media_type = at.find("mimeType");
     // The image's mimeType and the type of a data: uri must both agree with the bytes.
     for (const std::string& said :
          {media_type ? media_type->string() : found, held.media_type.empty() ? found : held.media_type})
-        if (said != found) place.fail("IMAGE_MIME_TYPE_INVALID", "data of type " + in_quotes(said), found);
+        if (said != found) location.fail("IMAGE_MIME_TYPE_INVALID", "data of type " + in_quotes(said), found);
     // Charged by the header's size, before the decoder allocates memory.
-    c_.budget.pay_texels(std::uint64_t{header.width} * header.height, place);
+    c_.budget.pay_texels(std::uint64_t{header.width} * header.height, location);
     into.width = static_cast<int>(header.width);
     into.height = static_cast<int>(header.height);
-    return decode_image(bytes, header, place);
+    return decode_image(bytes, header, location);
 }
 
 }  // namespace strata::scenes

@@ -17,22 +17,22 @@ using pipeline::Vec3;
 // without a view may claim 2^31 elements in a file of 200 bytes.
 Indices drawing_order(const PrimitiveSource& s, std::size_t vertex_count) {
     if (s.primitive.indices < 0) {
-        s.budget.pay_elements(vertex_count, s.place);
+        s.budget.pay_elements(vertex_count, s.location);
         Indices order(vertex_count);
         std::iota(order.begin(), order.end(), 0u);
         return order;
     }
     const AccessorReader& reader = s.accessors[s.primitive.indices];
-    s.budget.pay_elements(reader.count(), s.place);
+    s.budget.pay_elements(reader.count(), s.location);
     Indices order(reader.count());
-    const Place place{s.place.file, "/accessors/" + std::to_string(s.primitive.indices)};
+    const FileLocation location{s.location.file, "/accessors/" + std::to_string(s.primitive.indices)};
     for (std::size_t i = 0; i < order.size(); ++i) {
         const std::uint32_t index = order[i] = reader.index(i);
         if (index < vertex_count && index != reader.restart_index()) continue;
         const std::string found = std::to_string(index) + " at element " + std::to_string(i);
         if (index == reader.restart_index())
-            place.fail("ACCESSOR_INDEX_PRIMITIVE_RESTART", "indices below the type's largest value", found);
-        place.fail("ACCESSOR_INDEX_OOB", "indices below " + std::to_string(vertex_count), found);
+            location.fail("ACCESSOR_INDEX_PRIMITIVE_RESTART", "indices below the type's largest value", found);
+        location.fail("ACCESSOR_INDEX_OOB", "indices below " + std::to_string(vertex_count), found);
     }
     return order;
 }
@@ -42,7 +42,7 @@ Indices corners(const Indices& order, int mode, const PrimitiveSource& s) {
     const std::size_t n = order.size();
     const bool is_list = mode == TINYGLTF_MODE_TRIANGLES;
     if (n < 3 || (is_list && n % 3 != 0))
-        s.warnings.add(s.place.pointer, "vertices that make no whole triangle are ignored");
+        s.warnings.add(s.location.pointer, "vertices that make no whole triangle are ignored");
     if (is_list) return {order.begin(), order.begin() + static_cast<std::ptrdiff_t>(n - n % 3)};
     Indices all;
     if (n < 3) return all;
@@ -87,7 +87,7 @@ void read_finite(const PrimitiveSource& s, const std::string& name, const Indice
     for (const std::uint32_t vertex : vertices) {
         const std::array<float, 4> value = reader.element(vertex);
         if (!std::all_of(value.begin(), value.end(), [](float f) { return std::isfinite(f); }))
-            Place{s.place.file, "/accessors/" + std::to_string(accessor)}.fail(
+            FileLocation{s.location.file, "/accessors/" + std::to_string(accessor)}.fail(
                 "ACCESSOR_INVALID_FLOAT", "finite numbers for " + name,
                 "NaN or infinity at element " + std::to_string(vertex));
         take(value, reader.components());
@@ -104,7 +104,7 @@ std::vector<pipeline::Rgba> read_colors(const PrimitiveSource& s, const Indices&
         is_clamped |= std::any_of(value.begin(), value.end(), [](float f) { return f < 0 || f > 1; });
         colors.push_back(frame_color({value[0], value[1], value[2], value[3]}, s.color_space));
     });
-    if (is_clamped) s.warnings.add(s.place.pointer, "vertex colours outside 0 to 1 are clamped");
+    if (is_clamped) s.warnings.add(s.location.pointer, "vertex colours outside 0 to 1 are clamped");
     return colors;
 }
 
@@ -116,8 +116,8 @@ std::vector<pipeline::Vec2> read_texcoords(const PrimitiveSource& s, const Indic
                     const pipeline::Vec2 written{value[0], value[1]};
                     const pipeline::Vec2 uv = s.material.transform ? s.material.transform->apply(written) : written;
                     if (!std::isfinite(uv[0]) || !std::isfinite(uv[1]))
-                        s.place.fail("VALUE_NOT_IN_RANGE", "transformed texture coordinates in range of binary32",
-                                     "some beyond it");
+                        s.location.fail("VALUE_NOT_IN_RANGE", "transformed texture coordinates in range of binary32",
+                                        "some beyond it");
                     texcoords.push_back(uv);
                 });
     return texcoords;
@@ -128,7 +128,7 @@ std::vector<pipeline::Vec2> read_texcoords(const PrimitiveSource& s, const Indic
 std::optional<pipeline::Mesh> load_primitive(const PrimitiveSource& s) {
     const int mode = s.primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : s.primitive.mode;
     if (mode < TINYGLTF_MODE_TRIANGLES) {
-        s.warnings.add(s.place.pointer, "points and lines are not drawn");
+        s.warnings.add(s.location.pointer, "points and lines are not drawn");
         return std::nullopt;
     }
     const auto& attributes = s.primitive.attributes;

@@ -17,7 +17,7 @@ namespace strata::scenes {
 
 struct PrimitiveSource {
     const tinygltf::Primitive& primitive;
-    Place place;
+    FileLocation location;
     const LoadedMaterial& material;
     Accessors& accessors;
     Budget& budget;

@@ -53,7 +53,7 @@ tinygltf::Model to_model(const Document& document) {
     tinygltf::TinyGLTF parser;
     std::string error, warning;
     if (!parser.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned int>(text.size()), ""))
-        Place{document.file, ""}.fail("INVALID_JSON", "a document that tinygltf reads", in_quotes(error));
+        FileLocation{document.file, ""}.fail("INVALID_JSON", "a document that tinygltf reads", in_quotes(error));
     return model;
 }
 

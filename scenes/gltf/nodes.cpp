@@ -14,12 +14,12 @@ using pipeline::Matrix;
 Vec3d column(const Matrix& m, std::size_t c) { return {m[c].x, m[c].y, m[c].z}; }
 
 // The vector divided by its length; InputError if that is 0 or not finite.
-Vec3d unit(const Vec3d& v, const Place& place) {
+Vec3d unit(const Vec3d& v, const FileLocation& location) {
     const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
     const Vec3d scaled = divided(v, largest);  // so that no square overflows or underflows
     const double length = std::sqrt(dot_product(scaled, scaled));
     if (!(largest > 0) || !std::isfinite(length))
-        place.fail("VALUE_NOT_IN_RANGE", "a camera with a direction", "a transform that flattens it");
+        location.fail("VALUE_NOT_IN_RANGE", "a camera with a direction", "a transform that flattens it");
     return divided(scaled, length);
 }
 
@@ -61,8 +61,8 @@ std::vector<PlacedNode> place_nodes(const tinygltf::Model& model, std::span<cons
         const tinygltf::Node& node = model.nodes[static_cast<std::size_t>(next.node)];
         next.world = pipeline::product(next.world, local_transform(node));
         if (!std::ranges::all_of(entries_of(next.world), [](double v) { return std::isfinite(v); }))
-            Place{file, "/nodes/" + std::to_string(next.node)}.fail("VALUE_NOT_IN_RANGE", "a finite world transform",
-                                                                    "an overflow");
+            FileLocation{file, "/nodes/" + std::to_string(next.node)}.fail("VALUE_NOT_IN_RANGE",
+                                                                           "a finite world transform", "an overflow");
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
             waiting.push_back({*child, next.world});
         placed.push_back(next);
@@ -72,11 +72,11 @@ std::vector<PlacedNode> place_nodes(const tinygltf::Model& model, std::span<cons
 
 // The camera's axes made orthonormal: z is kept, x is made perpendicular to it, y completes a right-handed frame, which
 // drops scale, shear and mirroring. The inverse of such a frame is its transpose and the rotated, negated eye.
-Matrix view_of(const Matrix& world, const Place& place) {
-    const Vec3d z = unit(column(world, 2), place);
-    const Vec3d right = unit(column(world, 0), place);
+Matrix view_of(const Matrix& world, const FileLocation& location) {
+    const Vec3d z = unit(column(world, 2), location);
+    const Vec3d right = unit(column(world, 0), location);
     const double along = dot_product(right, z);
-    const Vec3d x = unit(minus(right, times(z, along)), place);
+    const Vec3d x = unit(minus(right, times(z, along)), location);
     const Vec3d y = cross_product(z, x), eye = column(world, 3);
     return {x[0],
             y[0],

@@ -30,6 +30,6 @@ struct PlacedNode {
 [[nodiscard]] pipeline::Matrix local_transform(const tinygltf::Node& node) noexcept;
 
 // The rigid inverse of a camera node's world transform; InputError if its axes are degenerate.
-[[nodiscard]] pipeline::Matrix view_of(const pipeline::Matrix& world, const Place& place);
+[[nodiscard]] pipeline::Matrix view_of(const pipeline::Matrix& world, const FileLocation& location);
 
 }  // namespace strata::scenes

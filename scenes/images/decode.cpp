@@ -11,18 +11,18 @@ namespace {
 using Codes = std::vector<std::uint8_t>;
 
 // A size that is impossible for a file of so many bytes is rejected before memory for its pixels is allocated.
-void check_size(const OIIO::ImageSpec& spec, std::size_t file_bytes, const Place& place) {
+void check_size(const OIIO::ImageSpec& spec, std::size_t file_bytes, const FileLocation& location) {
     const std::string size = std::to_string(spec.width) + " x " + std::to_string(spec.height);
     if (spec.width < 1 || spec.height < 1 || spec.width > static_cast<int>(max_image_side) ||
         spec.height > static_cast<int>(max_image_side))
-        place.fail("VALUE_NOT_IN_RANGE", "an image of 1 x 1 to 16384 x 16384", size);
+        location.fail("VALUE_NOT_IN_RANGE", "an image of 1 x 1 to 16384 x 16384", size);
     if (spec.image_bytes() / max_packing > file_bytes)
-        place.fail("IMAGE_UNEXPECTED_EOS", "a file that can hold " + size + " pixels",
-                   std::to_string(file_bytes) + " bytes");
+        location.fail("IMAGE_UNEXPECTED_EOS", "a file that can hold " + size + " pixels",
+                      std::to_string(file_bytes) + " bytes");
 }
 
 std::unique_ptr<OIIO::ImageInput> open(OIIO::Filesystem::IOProxy& memory, const EncodedPicture& picture,
-                                       const Place& place) {
+                                       const FileLocation& location) {
     std::unique_ptr<OIIO::ImageInput> reader = OIIO::ImageInput::create(picture.reader);
     if (!reader) throw std::runtime_error(std::string("OpenImageIO has no reader named ") + picture.reader);
     OIIO::ImageSpec spec, how;
@@ -30,20 +30,20 @@ std::unique_ptr<OIIO::ImageInput> open(OIIO::Filesystem::IOProxy& memory, const 
     how.attribute("oiio:UnassociatedAlpha", 1);
     reader->set_ioproxy(&memory);
     if (!reader->open(std::string("image.") + picture.reader, spec, how))
-        place.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader->geterror()));
+        location.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader->geterror()));
     // The memory budget was charged for the header's size: a decoder that finds another size is stopped before it
     // writes.
     if (picture.width != 0 && (spec.width != picture.width || spec.height != picture.height))
-        place.fail("IMAGE_DATA_INVALID", "an image of the size that its header says", "another");
+        location.fail("IMAGE_DATA_INVALID", "an image of the size that its header says", "another");
     if (spec.depth != 1 || spec.nchannels < 1 || spec.nchannels > 4 || (spec.nchannels == 4 && spec.alpha_channel != 3))
-        place.fail("IMAGE_DATA_INVALID", "grey or red, green and blue, with or without alpha",
-                   std::to_string(spec.nchannels) + " other channels");
-    check_size(spec, picture.bytes.size(), place);
+        location.fail("IMAGE_DATA_INVALID", "grey or red, green and blue, with or without alpha",
+                      std::to_string(spec.nchannels) + " other channels");
+    check_size(spec, picture.bytes.size(), location);
     return reader;
 }
 
 // All channels as stored, 8 bits each.
-Codes read(OIIO::ImageInput& reader, const Place& place) {
+Codes read(OIIO::ImageInput& reader, const FileLocation& location) {
     const OIIO::ImageSpec& spec = reader.spec();
     const std::size_t count = static_cast<std::size_t>(spec.width) * spec.height * spec.nchannels;
     // 16-bit channels are read unchanged: the reader's own conversion to 8 bits has another rounding rule.
@@ -52,7 +52,7 @@ Codes read(OIIO::ImageInput& reader, const Place& place) {
     Codes codes(is_wide ? 0 : count);
     void* const target = is_wide ? static_cast<void*>(wide.data()) : codes.data();
     if (!reader.read_image(0, 0, 0, spec.nchannels, is_wide ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8, target))
-        place.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader.geterror()));
+        location.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader.geterror()));
     if (!is_wide) return codes;
     codes.reserve(count);
     // c / 257 to the nearest code, as 65535 = 255 * 257. The sum is below 2^17 and fits an int.
@@ -74,10 +74,10 @@ Codes to_rgba(const Codes& codes, std::size_t channels) {
 
 }  // namespace
 
-Codes decode(const EncodedPicture& picture, const Place& place) {
+Codes decode(const EncodedPicture& picture, const FileLocation& location) {
     OIIO::Filesystem::IOMemReader memory(picture.bytes.data(), picture.bytes.size());
-    const auto reader = open(memory, picture, place);
-    Codes codes = read(*reader, place);
+    const auto reader = open(memory, picture, location);
+    Codes codes = read(*reader, location);
     const auto channels = static_cast<std::size_t>(reader->spec().nchannels);
     reader->close();
     return channels == 4 ? codes : to_rgba(codes, channels);
@@ -87,11 +87,11 @@ namespace {
 
 // All codes as unsigned integers of their own width.
 template <class Word>
-void read_words(OIIO::ImageInput& reader, OIIO::TypeDesc type, const Place& place, StoredCodes& to) {
+void read_words(OIIO::ImageInput& reader, OIIO::TypeDesc type, const FileLocation& location, StoredCodes& to) {
     const OIIO::ImageSpec& spec = reader.spec();
     std::vector<Word> words(static_cast<std::size_t>(spec.width) * spec.height * spec.nchannels);
     if (!reader.read_image(0, 0, 0, spec.nchannels, type, words.data()))
-        place.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader.geterror()));
+        location.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader.geterror()));
     to.codes.assign(words.begin(), words.end());
 }
 
@@ -108,28 +108,29 @@ void drop_empty_alpha(StoredCodes& stored) {
 
 }  // namespace
 
-StoredCodes decode_codes(const EncodedPicture& picture, const Place& place) {
+StoredCodes decode_codes(const EncodedPicture& picture, const FileLocation& location) {
     OIIO::Filesystem::IOMemReader memory(picture.bytes.data(), picture.bytes.size());
-    const auto reader = open(memory, picture, place);
+    const auto reader = open(memory, picture, location);
     const OIIO::ImageSpec& spec = reader->spec();
     StoredCodes stored{.width = spec.width, .height = spec.height, .channels = spec.nchannels};
     const std::string_view bytes{reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size()};
     if (auto scaled = scaled_pnm(bytes, spec.width, spec.height, spec.nchannels)) return *std::move(scaled);
     if (spec.format == OIIO::TypeDesc::UINT16) {
         stored.bits = 16;
-        read_words<std::uint16_t>(*reader, OIIO::TypeDesc::UINT16, place, stored);
+        read_words<std::uint16_t>(*reader, OIIO::TypeDesc::UINT16, location, stored);
     } else if (spec.format == OIIO::TypeDesc::HALF) {
         stored.bits = 16;
         stored.is_float = true;
-        read_words<std::uint16_t>(*reader, OIIO::TypeDesc::HALF, place, stored);
+        read_words<std::uint16_t>(*reader, OIIO::TypeDesc::HALF, location, stored);
     } else if (spec.format == OIIO::TypeDesc::FLOAT) {
         stored.bits = 32;
         stored.is_float = true;
-        read_words<std::uint32_t>(*reader, OIIO::TypeDesc::FLOAT, place, stored);
+        read_words<std::uint32_t>(*reader, OIIO::TypeDesc::FLOAT, location, stored);
     } else if (spec.format == OIIO::TypeDesc::UINT8) {
-        read_words<std::uint8_t>(*reader, OIIO::TypeDesc::UINT8, place, stored);
+        read_words<std::uint8_t>(*reader, OIIO::TypeDesc::UINT8, location, stored);
     } else {
-        place.fail("IMAGE_DATA_INVALID", "channels of 8 or 16 bits, halves or floats", in_quotes(spec.format.c_str()));
+        location.fail("IMAGE_DATA_INVALID", "channels of 8 or 16 bits, halves or floats",
+                      in_quotes(spec.format.c_str()));
     }
     reader->close();
     if (picture.reader == std::string_view{"bmp"} && stored.channels == 4) drop_empty_alpha(stored);

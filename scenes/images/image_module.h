@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "scenes/gltf/document/container.h"
-#include "scenes/gltf/document/place.h"
+#include "scenes/gltf/document/file_location.h"
 
 namespace strata::scenes {
 
@@ -37,10 +37,10 @@ struct StoredCodes {
 
 struct ImageModule {
     const char* version;
-    // Returns width * height * 4 codes. InputError at `place` if the bytes do not decode to that size.
-    std::vector<std::uint8_t> (*decode)(const EncodedPicture& picture, const Place& place);
+    // Returns width * height * 4 codes. InputError at `location` if the bytes do not decode to that size.
+    std::vector<std::uint8_t> (*decode)(const EncodedPicture& picture, const FileLocation& location);
     // The same with channels and bits unchanged, for any format that the library reads.
-    StoredCodes (*decode_codes)(const EncodedPicture& picture, const Place& place);
+    StoredCodes (*decode_codes)(const EncodedPicture& picture, const FileLocation& location);
 };
 
 // The module's only exported symbol, and the type of the function behind it.

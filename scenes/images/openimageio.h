@@ -7,7 +7,7 @@
 
 namespace strata::scenes::images {
 
-[[nodiscard]] std::vector<std::uint8_t> decode(const EncodedPicture& picture, const Place& place);
-[[nodiscard]] StoredCodes decode_codes(const EncodedPicture& picture, const Place& place);
+[[nodiscard]] std::vector<std::uint8_t> decode(const EncodedPicture& picture, const FileLocation& location);
+[[nodiscard]] StoredCodes decode_codes(const EncodedPicture& picture, const FileLocation& location);
 
 }  // namespace strata::scenes::images

@@ -46,9 +46,9 @@ class Bytes : public Assimp::IOStream {
 
 // Gives Assimp only the files that `read` returns, and records whether a file other than the model was opened. Assimp
 // owns it.
-class Beside : public Assimp::IOSystem {
+class ModelFolderFiles : public Assimp::IOSystem {
   public:
-    Beside(const ReadBeside& read, std::string model, bool& has_library)
+    ModelFolderFiles(const ReadRelativeFile& read, std::string model, bool& has_library)
         : read_{read}, model_{std::move(model)}, has_library_{has_library} {}
     [[nodiscard]] bool Exists(const char* name) const override { return !read_(name).empty(); }
     [[nodiscard]] char getOsSeparator() const override { return '/'; }
@@ -62,7 +62,7 @@ class Beside : public Assimp::IOSystem {
     void Close(Assimp::IOStream* stream) override { delete stream; }
 
   private:
-    const ReadBeside& read_;
+    const ReadRelativeFile& read_;
     std::string model_;
     bool& has_library_;
 };
@@ -111,10 +111,10 @@ constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiPro
 
 }  // namespace
 
-LoadedModel load(const std::string& name, const ReadBeside& read) {
+LoadedModel load(const std::string& name, const ReadRelativeFile& read) {
     LoadedModel model;
     Assimp::Importer importer;
-    importer.SetIOHandler(new Beside{read, name, model.has_library});
+    importer.SetIOHandler(new ModelFolderFiles{read, name, model.has_library});
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     const aiScene* const scene = importer.ReadFile(name, steps);
     if (scene == nullptr) {

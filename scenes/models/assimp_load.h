@@ -4,6 +4,6 @@
 
 namespace strata::scenes::models {
 
-[[nodiscard]] LoadedModel load(const std::string& name, const ReadBeside& read);
+[[nodiscard]] LoadedModel load(const std::string& name, const ReadRelativeFile& read);
 
 }  // namespace strata::scenes::models

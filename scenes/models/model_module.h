@@ -37,12 +37,12 @@ struct LoadedModel {
 };
 
 // Returns the bytes of a file in the model's folder, by its relative name; empty if there is none.
-using ReadBeside = std::function<std::vector<std::byte>(const std::string& name)>;
+using ReadRelativeFile = std::function<std::vector<std::byte>(const std::string& name)>;
 
 struct ModelModule {
     const char* version;
     // `name` is the model's file name, whose ending selects the reader.
-    LoadedModel (*load)(const std::string& name, const ReadBeside& read);
+    LoadedModel (*load)(const std::string& name, const ReadRelativeFile& read);
 };
 
 // The module's only exported symbol, and the type of the function behind it.

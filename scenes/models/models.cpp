@@ -135,13 +135,13 @@ class ModelScene {
             scene_.warnings.push_back("texture " + in_quotes(name) + " is not drawn: it is neither PNG nor JPEG");
             return number;
         }
-        const Place place{*file, ""};
-        const ImageHeader header = read_image_header(bytes, place);
+        const FileLocation location{*file, ""};
+        const ImageHeader header = read_image_header(bytes, location);
         pipeline::Texture made{.name = name,
                                .width = static_cast<int>(header.width),
                                .height = static_cast<int>(header.height),
                                .decode_srgb = options_.color_space == pipeline::ColorSpace::linear,
-                               .texels = decode_image(bytes, header, place)};
+                               .texels = decode_image(bytes, header, location)};
         number = static_cast<int>(scene_.list.textures.size());
         scene_.list.textures.push_back(std::move(made));
         return number;

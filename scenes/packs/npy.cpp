@@ -9,7 +9,7 @@
 #include "rasterizer/base/enum_values.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/text_file.h"
-#include "scenes/gltf/document/place.h"
+#include "scenes/gltf/document/file_location.h"
 
 namespace strata::scenes {
 

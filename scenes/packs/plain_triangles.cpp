@@ -58,9 +58,9 @@ Mesh mesh_of_npy(const std::string& path, std::optional<pipeline::View>& view) {
 
 // A row of a list: `count` numbers in the range of `Number`.
 template <class Number>
-std::vector<Number> row_of(const json& row, std::size_t count, const std::string& file, const std::string& place) {
+std::vector<Number> row_of(const json& row, std::size_t count, const std::string& file, const std::string& location) {
     const auto fail = [&](const std::string& found) {
-        throw InputError(file, place, fmt::format("an array of {} numbers", count), found);
+        throw InputError(file, location, fmt::format("an array of {} numbers", count), found);
     };
     if (!row.is_array() || row.size() != count) fail(row.is_array() ? fmt::format("{}", row.size()) : row.type_name());
     std::vector<Number> numbers;

@@ -22,7 +22,7 @@ struct Place {
 // The position in space that the view shows at a window position.
 pipeline::Vec3 seen(const Place& p) {
     static const CaseScene frame{.width = side, .height = side};
-    return hard::seen_at(frame, p.x, p.y, p.w);
+    return hard::point_at_window(frame, p.x, p.y, p.w);
 }
 
 enum class Facing : std::uint8_t { eye, away };

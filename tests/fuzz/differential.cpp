@@ -12,7 +12,7 @@
 
 namespace strata::fuzz {
 
-peeling::RenderResult run(const FrameCase& frame, const Way& way) {
+peeling::RenderResult run(const FrameCase& frame, const ExecutionWay& way) {
     peeling::RenderOptions options = frame.options;
     options.execution = way.execution;
     options.tile_size = way.tile_size;
@@ -119,25 +119,25 @@ const std::vector<std::function<void(FrameCase&)>>& simplifications() {
         },
         [](FrameCase& f) { f.profile = *pipeline::find_profile("ideal"); },
         [](FrameCase& f) {
-            for (Way& w : f.ways) w.tile_size = 32;
+            for (ExecutionWay& w : f.ways) w.tile_size = 32;
         },
         [](FrameCase& f) {
-            for (Way& w : f.ways) w.effects = pipeline::Effects::needed;
+            for (ExecutionWay& w : f.ways) w.effects = pipeline::Effects::needed;
         },
         [](FrameCase& f) {
-            for (Way& w : f.ways) w.trust_idle = true;
+            for (ExecutionWay& w : f.ways) w.trust_idle = true;
         },
         [](FrameCase& f) {
-            for (Way& w : f.ways) w.check_selections = false;
+            for (ExecutionWay& w : f.ways) w.check_selections = false;
         },
         [](FrameCase& f) {
-            for (Way& w : f.ways) w.fragment_memory = plain.fragment_memory;
+            for (ExecutionWay& w : f.ways) w.fragment_memory = plain.fragment_memory;
         },
         [](FrameCase& f) {
-            for (Way& w : f.ways) w.simd = f.ways[0].simd;
+            for (ExecutionWay& w : f.ways) w.simd = f.ways[0].simd;
         },
         [](FrameCase& f) {
-            for (Way& w : f.ways) w.execution = f.ways[0].execution;
+            for (ExecutionWay& w : f.ways) w.execution = f.ways[0].execution;
         },
     };
     return all;
@@ -164,7 +164,7 @@ std::string first_difference(const FrameCase& frame) {
 }
 
 FrameCase reduced(FrameCase frame) {
-    drop_from<Way>(
+    drop_from<ExecutionWay>(
         frame, [](FrameCase & f) -> auto& { return f.ways; }, 1, 1);
     while (drop_geometry(frame)) {
     }

@@ -11,7 +11,7 @@
 
 namespace strata::fuzz {
 
-[[nodiscard]] peeling::RenderResult run(const FrameCase& frame, const Way& way);
+[[nodiscard]] peeling::RenderResult run(const FrameCase& frame, const ExecutionWay& way);
 
 // Name of the first way that differs and of the result that differs; empty if all are equal.
 [[nodiscard]] std::string first_difference(const FrameCase& frame);

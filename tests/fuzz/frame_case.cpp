@@ -147,9 +147,9 @@ peeling::RenderOptions options(ByteSource& bytes, const DeviceProfile& profile, 
     return o;
 }
 
-Way way(ByteSource& bytes, const Running& running, Simd simd) {
+ExecutionWay way(ByteSource& bytes, const Running& running, Simd simd) {
     constexpr std::array<std::uint64_t, 6> memories{usual_memory, 300 << 10, 40 << 10, 4 << 10, 600, 0};
-    Way w{.execution = running.execution, .simd = simd, .fragment_memory = running.fragment_memory};
+    ExecutionWay w{.execution = running.execution, .simd = simd, .fragment_memory = running.fragment_memory};
     w.tile_size = bytes.pick(std::array{8, 16, 32, 64, 128});
     if (bytes.one_in(4)) w.effects = Effects::all;
     if (bytes.one_in(4)) w.trust_idle = false;
@@ -183,9 +183,9 @@ void choose_of_algorithms(ByteSource& bytes, peeling::AlgorithmOptions& o) {
     o.stochastic_samples = 1 + bytes.below(peeling::most_stochastic_samples);
 }
 
-std::vector<Way> ways(ByteSource& bytes) {
-    std::vector<Way> all{way(bytes, literal, Simd::best), way(bytes, rasterizing, Simd::best),
-                         way(bytes, replaying, Simd::best)};
+std::vector<ExecutionWay> ways(ByteSource& bytes) {
+    std::vector<ExecutionWay> all{way(bytes, literal, Simd::best), way(bytes, rasterizing, Simd::best),
+                                  way(bytes, replaying, Simd::best)};
     all.push_back(way(bytes, bytes.pick(runnings), Simd::scalar));
     if (bytes.one_in(6))
         all.push_back(way(bytes, bytes.pick(runnings), bytes.pick(std::array{Simd::avx2, Simd::scalar})));

@@ -13,7 +13,7 @@
 namespace strata::fuzz {
 
 // Settings that no result may depend on.
-struct Way {
+struct ExecutionWay {
     pipeline::Execution execution = pipeline::Execution::literal;
     Simd simd = Simd::best;
     int tile_size = 32;
@@ -29,12 +29,12 @@ struct FrameCase {
     peeling::RenderOptions options;
     pipeline::DrawList list;
     pipeline::View view;
-    std::vector<Way> ways;  // the first is the definition: literal
+    std::vector<ExecutionWay> ways;  // the first is the definition: literal
 };
 
 [[nodiscard]] FrameCase make_case(std::span<const std::uint8_t> bytes);
 
-void print(std::ostream& out, const Way& way);
+void print(std::ostream& out, const ExecutionWay& way);
 void print(std::ostream& out, const FrameCase& frame);
 
 }  // namespace strata::fuzz

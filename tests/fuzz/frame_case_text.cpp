@@ -90,7 +90,7 @@ void print_texture(std::ostream& out, const pipeline::Texture& t) {
 
 }  // namespace
 
-void print(std::ostream& out, const Way& w) {
+void print(std::ostream& out, const ExecutionWay& w) {
     constexpr const char* executions[]{"literal", "replay"};
     constexpr const char* sets[]{"scalar", "avx2", "avx512", "best"};
     out << executions[static_cast<int>(w.execution)] << ", " << sets[static_cast<int>(w.simd)] << ", tile "
@@ -106,7 +106,7 @@ void print(std::ostream& out, const FrameCase& f) {
         if (field.value(f.profile) != field.value(built_in))
             out << field.key << ' ' << text_of(field, f.profile) << ", ";
     print_options(out, f.options);
-    for (const Way& way : f.ways) {
+    for (const ExecutionWay& way : f.ways) {
         out << "way: ";
         print(out, way);
         out << '\n';

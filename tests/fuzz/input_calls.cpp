@@ -73,7 +73,7 @@ void try_calls(Bytes data) {
     ByteSource bytes{data.first(std::min(call_bytes, data.size()))};
     const auto calls = calls_of(bytes);
     FrameCase frame = make_case(data.subspan(std::min(call_bytes, data.size())));
-    const Way& way = frame.ways.back();
+    const ExecutionWay& way = frame.ways.back();
     frame.options.execution = way.execution;
     frame.options.tile_size = way.tile_size;
     frame.options.fragment_memory = way.fragment_memory;

@@ -67,7 +67,7 @@ TEST_CASE("a program sees the same window position in a pass that visits only se
         state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
         state.depth_target = first;
         state.needs.color = false;
-        state.selection = {.keeps = Keeps::nearest};
+        state.selection = {.keeps = KeptFragments::nearest};
         region.clear(first, {.depth = 1.0f});
         region.clear(second, {.depth = 1.0f});
         static_cast<void>(region.draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
@@ -75,9 +75,9 @@ TEST_CASE("a program sees the same window position in a pass that visits only se
         state.color[0] = result;
         state.reads[0] = first;
         state.selection.near = strata::pipeline::KeyBound::beyond(first);
-        static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& loads, Outputs& out) {
             for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
-                out.alive[i] &= mask(in.code[i] > own.depth(0)[i]);
+                out.alive[i] &= mask(in.code[i] > loads.depth(0)[i]);
                 out.color[0][0][i] = static_cast<float>(in.x[i]) / 255.0f;
                 out.color[0][1][i] = static_cast<float>(in.y[i]) / 255.0f;
             }
@@ -115,7 +115,7 @@ TEST_CASE("nothing passes LESS against a depth below 0 in a pass that visits onl
         PassState state;
         state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
         state.depth_target = depth;
-        state.selection = {.keeps = Keeps::nearest};
+        state.selection = {.keeps = KeptFragments::nearest};
         for (const float cleared : {1.0f, -1.0f}) {
             if (cleared < 0) state.color[0] = result;
             region.clear(depth, {.depth = cleared});

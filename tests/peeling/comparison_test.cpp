@@ -231,7 +231,7 @@ TEST_CASE("an algorithm that knows only stored codes is rejected where another d
     for (const char* algorithm : {"layer_peel", "hybrid", "coherent_stencil", "batched"}) {
         const RenderResult result = render(scene.list, scene.view, {"ideal", algorithm}, options);
         REQUIRE(result.outcome == strata::peeling::Outcome::refused);
-        CHECK(result.refusal->sentence(*strata::pipeline::find_profile("ideal")) ==
+        CHECK(result.refusal->message(*strata::pipeline::find_profile("ideal")) ==
               std::string{"profile ideal has no choice of the depth that "} + algorithm +
                   " compares; use depth_units, front_to_back, dual or dual_independent");
     }

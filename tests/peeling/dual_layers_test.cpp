@@ -12,7 +12,7 @@ namespace {
 using namespace strata::testing;
 using strata::peeling::RenderOptions;
 using strata::peeling::RenderResult;
-using strata::pipeline::KeptLayer;
+using strata::pipeline::PeeledLayer;
 using strata::pipeline::Rgba;
 using strata::pipeline::Side;
 
@@ -71,7 +71,7 @@ TEST_CASE("the layers of a dual peel are the nearest and the farthest depth foun
         for (const Running& running : all_ways_of_running) {
             const RenderResult result = peeled(scene, algorithm, true, running);
             std::map<Side, std::size_t> passes;
-            for (const KeptLayer& layer : result.frame.layers) {
+            for (const PeeledLayer& layer : result.frame.layers) {
                 const std::size_t pass = passes[layer.side]++;
                 // Of tied fragments dual_independent keeps one, so its layers are compared only where there is no tie.
                 const bool merges = std::string(algorithm) == "dual";

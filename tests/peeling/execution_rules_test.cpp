@@ -34,7 +34,7 @@ TEST_CASE("sums execute alike in halves and in binary32 including denormals") {
     options.width = 40;
     options.height = 28;
     options.background = {0, 0, 0, 1};
-    const std::array<Way, 2> chosen{ways[7], ways[8]};
+    const std::array<ExecutionWay, 2> chosen{ways[7], ways[8]};
     for (const auto format : {strata::pipeline::Format::rgba8, strata::pipeline::Format::rgba32f})
         for (const float alpha : {0.375f, 3e-38f})
             for (const char* profile : {"geforce8_dx101", "ideal"})
@@ -57,7 +57,7 @@ TEST_CASE("sums of colours by the chip's weights execute alike on a device with 
     options.execution = Execution::literal;
     const RenderResult expected = drawn_on(mixed, scene, "weighted_average", options);
     REQUIRE(expected.outcome == strata::peeling::Outcome::done);
-    for (const Way& way : {ways[7], ways[8]})
+    for (const ExecutionWay& way : {ways[7], ways[8]})
         CHECK(difference(drawn_on(mixed, scene, "weighted_average", with(options, way)), expected) == "");
 }
 
@@ -65,7 +65,7 @@ TEST_CASE("sums of colours by the chip's weights execute alike on a device with 
 // may not be skipped.
 TEST_CASE("peels from both ends over a background of denormals and -0 execute alike in floats") {
     const TriangleScene scene = random_triangles(85, 5);  // many pixels have one fragment
-    const std::array<Way, 2> chosen{ways[7], ways[8]};
+    const std::array<ExecutionWay, 2> chosen{ways[7], ways[8]};
     for (const auto format : {strata::pipeline::Format::rgba16f, strata::pipeline::Format::rgba32f})
         for (const char* profile : {"geforce8_dx101", "ideal"}) {
             RenderOptions options = small_frame();
@@ -85,7 +85,7 @@ TEST_CASE("peels from both ends over a background of denormals and -0 execute al
 TEST_CASE("depths beyond the range execute alike because the frame is drawn as a whole and no tile uses a bound",
           "[slow]") {
     using namespace strata::pipeline;
-    const std::vector<Way> few{ways[0], ways[1], ways[3], ways[7], ways[8]};
+    const std::vector<ExecutionWay> few{ways[0], ways[1], ways[3], ways[7], ways[8]};
     DeviceProfile wraps = *find_profile("llvmpipe"), clamps = wraps;
     wraps.raster.depth_limits = strata::rasterizer::DepthLimits::wrap;
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f})
@@ -104,7 +104,7 @@ TEST_CASE("depths beyond the range execute alike because the frame is drawn as a
             INFO(algorithm << ", format " << static_cast<int>(format));
             if (format != DepthFormat::d32f)
                 CHECK(difference(drawn_on(clamps, scene, algorithm, options), expected) != "");
-            for (const Way& way : few)
+            for (const ExecutionWay& way : few)
                 CHECK(difference(drawn_on(wraps, scene, algorithm, with(options, way)), expected) == "");
         }
 }
@@ -130,7 +130,7 @@ TEST_CASE("an opaque depth below 0 is not a bound for sorting and such a frame e
             const RenderResult expected = drawn_on(wraps, scene, algorithm, options);
             REQUIRE(expected.outcome == strata::peeling::Outcome::done);
             INFO(algorithm << ", format " << static_cast<int>(format));
-            for (const Way& way : {ways[1], ways[7], ways[8]})
+            for (const ExecutionWay& way : {ways[1], ways[7], ways[8]})
                 CHECK(difference(drawn_on(wraps, scene, algorithm, with(options, way)), expected) == "");
         }
 }
@@ -138,7 +138,7 @@ TEST_CASE("an opaque depth below 0 is not a bound for sorting and such a frame e
 // Tiles of 64 pixels that share a slot in the cache: (5, 0) and (0, 1). The passes blend a pixel several times.
 TEST_CASE("blends in cached tiles execute alike in frames whose tiles evict one another and in small ones", "[slow]") {
     using namespace strata::pipeline;
-    const std::vector<Way> few{ways[0], ways[1], ways[3], ways[7], ways[8]};
+    const std::vector<ExecutionWay> few{ways[0], ways[1], ways[3], ways[7], ways[8]};
     for (const int width : {40, 330})
         for (const auto format : {Format::rgba8, Format::rgba16f})
             for (const char* algorithm : {"unsorted", "painter", "weighted_average", "weighted_sum", "coherent_stencil",
@@ -158,7 +158,7 @@ TEST_CASE("blends in cached tiles execute alike in frames whose tiles evict one 
 TEST_CASE("peels execute alike for every rule of blending and conversion in every format with ties and limits",
           "[slow]") {
     Random random{81};
-    const std::array<Way, 2> chosen{ways[7], ways[10]};
+    const std::array<ExecutionWay, 2> chosen{ways[7], ways[10]};
     using namespace strata::pipeline;
     for (const char* base : {"llvmpipe", "llvmpipe_sse", "softpipe", "swiftshader", "geforce8_dx101"})
         for (const auto format : {Format::rgba8, Format::rgba16f, Format::rgba32f})
@@ -189,7 +189,7 @@ TEST_CASE("peels execute alike for every rule of blending and conversion in ever
                     const RenderResult expected = drawn(options);
                     REQUIRE(expected.outcome == strata::peeling::Outcome::done);
                     INFO(algorithm << " on " << base << ", format " << static_cast<int>(format) << ", trial " << trial);
-                    for (const Way& way : chosen) {
+                    for (const ExecutionWay& way : chosen) {
                         const RenderResult found = drawn(with(options, way));
                         CHECK(difference(found, expected) == "");
                         if (algorithm == std::string_view{"dual"})

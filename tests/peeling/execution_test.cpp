@@ -56,7 +56,7 @@ TEST_CASE("algorithms of a partial order execute alike resolved and as published
           "[slow]") {
     TriangleScene scene = random_triangles(79, 12);
     scene.list.instances[0].arrives_sorted = true;  // false, but this must not change any execution
-    const std::vector<Way> few{ways[0], ways[1], ways[3], ways[8], ways[12]};
+    const std::vector<ExecutionWay> few{ways[0], ways[1], ways[3], ways[8], ways[12]};
     for (const Ending& ending : endings)
         for (const Machine& machine : machines_of(Kind::partial_order))
             for (const auto formulation :

@@ -11,7 +11,7 @@
 
 namespace strata::testing {
 
-struct Way {
+struct ExecutionWay {
     pipeline::Execution execution;
     int tile_size, threads;
     pipeline::Effects effects;
@@ -19,7 +19,7 @@ struct Way {
     std::uint64_t fragment_memory = std::uint64_t{256} << 20;
 };
 
-inline constexpr std::array<Way, 13> ways{
+inline constexpr std::array<ExecutionWay, 13> ways{
     {{pipeline::Execution::literal, 64, 4, pipeline::Effects::all, false},
      {pipeline::Execution::replay, 8, 1, pipeline::Effects::needed, true, 0},
      {pipeline::Execution::replay, 16, 4, pipeline::Effects::all, true, 0},
@@ -34,7 +34,7 @@ inline constexpr std::array<Way, 13> ways{
      {pipeline::Execution::replay, 64, 1, pipeline::Effects::needed, true, std::uint64_t{300} << 10},
      {pipeline::Execution::replay, 16, 2, pipeline::Effects::needed, true, std::uint64_t{4} << 10}}};
 
-[[nodiscard]] inline peeling::RenderOptions with(peeling::RenderOptions options, const Way& way) {
+[[nodiscard]] inline peeling::RenderOptions with(peeling::RenderOptions options, const ExecutionWay& way) {
     options.execution = way.execution;
     options.tile_size = way.tile_size;
     options.threads = way.threads;
@@ -45,14 +45,14 @@ inline constexpr std::array<Way, 13> ways{
 
 // Compares every way with literal execution in one thread and reports the first difference.
 inline void check_all_ways(const TriangleScene& scene, const Machine& machine, peeling::RenderOptions options,
-                           std::span<const Way> chosen = ways) {
+                           std::span<const ExecutionWay> chosen = ways) {
     options.execution = pipeline::Execution::literal;
     options.threads = 1;
     const peeling::RenderResult expected = render(scene.list, scene.view, machine, options);
     REQUIRE(expected.outcome == peeling::Outcome::done);
     // the literal run is reproducible
     CHECK(difference(render(scene.list, scene.view, machine, options), expected).empty());
-    for (const Way& way : chosen) {
+    for (const ExecutionWay& way : chosen) {
         const peeling::RenderResult found =
             render(scene.list, scene.view, machine, with(options, way), {.trust_idle = way.trust_idle});
         INFO(machine.algorithm << " on " << machine.profile << ", tile " << way.tile_size << ", threads " << way.threads

@@ -92,7 +92,7 @@ TEST_CASE("a peel that compares its own codes rejects an experiment with another
     e.compare = DepthPath::perspective_rq;
     const Measurement m = measured(e);
     REQUIRE(m.refusal);
-    CHECK(m.refusal->sentence(*find_profile("ideal")).find("the depth that coherent_stencil compares") !=
+    CHECK(m.refusal->message(*find_profile("ideal")).find("the depth that coherent_stencil compares") !=
           std::string::npos);
     CHECK(m.paths == PathComparison{});
 }

@@ -75,7 +75,7 @@ Experiment experiment(const Case& c) {
 
 Measurement run(const Case& c, const Stack& stack, const Experiment& e) {
     const Measurement m = measure(list_of(stack), perspective(), *find_profile(c.profile), e);
-    INFO((m.refusal ? m.refusal->sentence(*find_profile(c.profile)) : std::string()));
+    INFO((m.refusal ? m.refusal->message(*find_profile(c.profile)) : std::string()));
     REQUIRE_FALSE(m.refusal);
     return m;
 }

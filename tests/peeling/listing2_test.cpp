@@ -119,8 +119,8 @@ Codes codes_of(const Frame& frame, PassState state, Program&& program) {
     Region region{frame, {frame.rect()}, statistics};
     state.needs.code = true;
     Codes codes;
-    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        program(in, own, out);
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        program(in, loads, out);
         for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
             if (out.alive[i] != 0)
                 codes[{in.pixel[i], in.primitive[i]}] = (out.replaces_depth ? out.depth : in.code)[i];
@@ -144,7 +144,7 @@ void peel(Region& region) {
         FragmentPathProgram program{region, stages(map)};
         program.apply(state);
         region.begin_iteration();
-        const Drawn drawn = region.draw(state, program);
+        const DrawCounts drawn = region.draw(state, program);
         layers.color.push_back(color);
         layers.depth.push_back(map = region.make_depth());
         region.targets().copy_rectangle(depth, region.frame().rect(), map, 0, 0);
@@ -169,8 +169,8 @@ Listed listed(const Scene& scene) {
     listing.apply(state);
     state.needs.units |= 0xf000;  // unit 3, which no stage uses yet
     Listed found;
-    found.codes = codes_of(scene.frame, state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        listing(in, own, out);
+    found.codes = codes_of(scene.frame, state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        listing(in, loads, out);
         for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
             const auto over_q = [&](std::size_t c) {
                 return strata::rasterizer::divide(in.unit[3][c][i], in.unit[3][3][i],

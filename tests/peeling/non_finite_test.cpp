@@ -67,9 +67,9 @@ std::vector<Diagnostic> non_finite(const RenderResult& result) {
 
 const auto zero = [](const FragmentBatch&, const Loads&, Outputs&) {};
 // inf / inf where the sum has overflowed.
-const auto quotient = [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+const auto quotient = [](const FragmentBatch& in, const Loads& loads, Outputs& out) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
-        out.color[0][0][i] = own.color(0)[0][i] / own.color(0)[3][i];
+        out.color[0][0][i] = loads.color(0)[0][i] / loads.color(0)[3][i];
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ struct Cause {
     std::string algorithm;
     bool is_invariant = true;
     Fault fault = Fault::out_of_order;
-    std::string sentence;  // empty: nothing is reported
+    std::string message;  // empty: nothing is reported
 };
 
 const std::vector<Cause> causes{
@@ -43,8 +43,8 @@ TEST_CASE("order errors are attributed to the cause given by the algorithm's ord
         INFO(cause.algorithm << (cause.is_invariant ? "" : ", unlike depths"));
         std::vector<Diagnostic> all;
         add_audit_diagnostics(*find_algorithm(cause.algorithm), {}, {.is_invariant = cause.is_invariant}, audit, all);
-        REQUIRE(all.size() == (cause.sentence.empty() ? 0u : 1u));
-        if (!all.empty()) CHECK(all[0] == Diagnostic{cause.fault, 2, 1, 0, cause.sentence});
+        REQUIRE(all.size() == (cause.message.empty() ? 0u : 1u));
+        if (!all.empty()) CHECK(all[0] == Diagnostic{cause.fault, 2, 1, 0, cause.message});
     }
 }
 

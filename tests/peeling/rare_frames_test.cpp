@@ -204,7 +204,7 @@ TEST_CASE("an order that is far from sorted is sorted as well and tie policy non
     FragmentOrder sorted;
     sort_almost(&KeyedFragment::exact_code, fragments, near_order, sorted);
     REQUIRE(sorted.size() == 300);
-    for (std::uint32_t k = 0; k < 300; ++k) CHECK(place_of(sorted[k]) == 299 - k);
+    for (std::uint32_t k = 0; k < 300; ++k) CHECK(submission_index(sorted[k]) == 299 - k);
     FragmentOrder by_key = near_order;
     apply(TiePolicy::none, by_key);
     CHECK(by_key == near_order);

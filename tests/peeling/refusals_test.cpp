@@ -22,15 +22,15 @@ FragmentScene one_fragment() {
 }
 
 // The message of a rejected run; empty if it ran.
-std::string sentence(const Machine& machine, const RenderOptions& options) {
+std::string refusal_message(const Machine& machine, const RenderOptions& options) {
     const RenderResult result = render(one_fragment(), machine, options);
     CHECK((result.outcome == Outcome::refused) == result.refusal.has_value());
     if (!result.refusal) return "";
     CHECK(result.frame.color.codes.empty());  // no partial result
-    return result.refusal->sentence(*find_profile(machine.profile));
+    return result.refusal->message(*find_profile(machine.profile));
 }
 
-std::string sentence(const Machine& machine) { return sentence(machine, options_for(one_fragment())); }
+std::string refusal_message(const Machine& machine) { return refusal_message(machine, options_for(one_fragment())); }
 
 const std::string no_float =
     "profile geforce3 has no float render targets that blend (ARB_color_buffer_float); "
@@ -46,32 +46,32 @@ TEST_CASE("the table of algorithms and profiles is that of devices.md 10") {
         for (const auto& algorithm : strata::peeling::algorithms()) {
             const bool expected = expected_of(algorithm.name).runs_on(profile.name);
             INFO(algorithm.name << " on " << profile.name);
-            CHECK(sentence({profile.name, algorithm.name}).empty() == expected);
+            CHECK(refusal_message({profile.name, algorithm.name}).empty() == expected);
         }
 }
 
 TEST_CASE("a rejected algorithm names the first missing feature with its extension and the devices that have it") {
-    CHECK(sentence({"geforce3", "front_to_back"}) == no_programs);
-    CHECK(sentence({"geforce3", "dual"}) == no_float);
-    CHECK(sentence({"geforce3", "weighted_average"}) == no_float);
-    CHECK(sentence({"geforce3", "weighted_sum"}) == no_float);
+    CHECK(refusal_message({"geforce3", "front_to_back"}) == no_programs);
+    CHECK(refusal_message({"geforce3", "dual"}) == no_float);
+    CHECK(refusal_message({"geforce3", "weighted_average"}) == no_float);
+    CHECK(refusal_message({"geforce3", "weighted_sum"}) == no_float);
     for (const std::string profile : {"geforce3", "geforce8"})
-        CHECK(sentence({profile, "dual_independent"}) ==
+        CHECK(refusal_message({profile, "dual_independent"}) ==
               "profile " + profile +
                   " has no independent blend equations (ARB_draw_buffers_blend); use geforce8_dx101, ideal, llvmpipe, "
                   "llvmpipe_sse, softpipe, swiftshader or direct3d11");
-    CHECK(sentence({"geforce3", "coherent_stencil"}) == no_programs);
-    CHECK(sentence({"geforce8", "coherent_ideal"}) ==
+    CHECK(refusal_message({"geforce3", "coherent_stencil"}) == no_programs);
+    CHECK(refusal_message({"geforce8", "coherent_ideal"}) ==
           "profile geforce8 has no ordered read-modify-write of render targets (STRATA_ordered_rmw); use ideal or "
           "direct3d11");
-    CHECK(sentence({"llvmpipe", "stencil_routed_k_buffer"}) ==
+    CHECK(refusal_message({"llvmpipe", "stencil_routed_k_buffer"}) ==
           "profile llvmpipe has no 8 samples per pixel (ARB_multisample); use geforce8, geforce8_dx101, ideal or "
           "direct3d11");
 }
 
 TEST_CASE("depth replace is rejected by its extension where there are no texture shaders") {
     for (const std::string profile : {"geforce8", "geforce8_dx101", "llvmpipe"})
-        CHECK(sentence({profile, "shadow_map_depth_replace"}) ==
+        CHECK(refusal_message({profile, "shadow_map_depth_replace"}) ==
               "profile " + profile +
                   " has no depth replace by texture shaders (NV_texture_shader); use geforce3 or ideal");
 }
@@ -80,7 +80,7 @@ TEST_CASE("depth formats that a device lacks are rejected for every algorithm") 
     const auto with_depth = [](const Machine& machine, DepthFormat format) {
         RenderOptions options = options_for(one_fragment());
         options.depth = format;
-        return sentence(machine, options);
+        return refusal_message(machine, options);
     };
     const std::string d16 =
         " has no 16-bit depth buffers; use geforce3, ideal, llvmpipe, llvmpipe_sse, softpipe, swiftshader or "
@@ -104,8 +104,8 @@ TEST_CASE("float colour on geforce3 is rejected") {
     RenderOptions options = options_for(one_fragment());
     for (const Format format : {Format::rgba16f, Format::rgba32f}) {
         options.color_format = format;
-        CHECK(sentence({"geforce3", "unsorted"}, options) == no_float);
-        CHECK(sentence({"geforce8", "unsorted"}, options).empty());
+        CHECK(refusal_message({"geforce3", "unsorted"}, options) == no_float);
+        CHECK(refusal_message({"geforce8", "unsorted"}, options).empty());
     }
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("depth paths run on their own machines and are rejected by name on oth
     const auto with_path = [](const Machine& machine, DepthPath path) {
         RenderOptions options = options_for(one_fragment());
         options.depth_path = path;
-        return sentence(machine, options);
+        return refusal_message(machine, options);
     };
     for (const char* profile : {"geforce3", "geforce8", "ideal"})
         for (const DepthPath path : {DepthPath::float32, DepthPath::exact})
@@ -174,7 +174,7 @@ TEST_CASE("a viewport beyond the device's limit is rejected before memory of its
         options.width = width;
         options.height = height;
         options.audit = options.nearest_depth = false;
-        return sentence(machine, options);
+        return refusal_message(machine, options);
     };
     CHECK(with_size({"geforce3", "unsorted"}, 4096, 1).empty());
     CHECK(with_size({"geforce3", "unsorted"}, 4097, 1) ==
@@ -190,17 +190,17 @@ TEST_CASE("a viewport beyond the device's limit is rejected before memory of its
 TEST_CASE("layers of an algorithm that composites immediately are rejected") {
     RenderOptions options = options_for(one_fragment());
     options.keep_layers = true;
-    CHECK(sentence({"geforce8", "weighted_average"}, options) ==
+    CHECK(refusal_message({"geforce8", "weighted_average"}, options) ==
           "profile geforce8 has no layers in weighted_average, which composites on the fly; use dual or front_to_back");
-    CHECK(sentence({"geforce8", "dual"}, options).empty());
-    CHECK(sentence({"geforce8", "front_to_back"}, options).empty());
-    CHECK(sentence({"geforce3", "depth_units"}, options).empty());
+    CHECK(refusal_message({"geforce8", "dual"}, options).empty());
+    CHECK(refusal_message({"geforce8", "front_to_back"}, options).empty());
+    CHECK(refusal_message({"geforce3", "depth_units"}, options).empty());
 }
 
 TEST_CASE("a reversed depth range is rejected by name and depth clamping where the device has none") {
     RenderOptions options = options_for(one_fragment());
     options.raster.depth_clamp = true;
-    CHECK(sentence({"geforce8", "dual"}, options).empty());
+    CHECK(refusal_message({"geforce8", "dual"}, options).empty());
     DeviceProfile without = *find_profile("geforce8");
     without.has_depth_clamp = false;
     const DrawList list = draw_list(one_fragment());
@@ -209,7 +209,7 @@ TEST_CASE("a reversed depth range is rejected by name and depth clamping where t
     options.raster.depth_near = 1;
     options.raster.depth_far = 0;
     for (const auto& algorithm : strata::peeling::algorithms())
-        CHECK(sentence({"ideal", algorithm.name}, options) ==
+        CHECK(refusal_message({"ideal", algorithm.name}, options) ==
               "profile ideal has no peeling with LESS over a reversed depth range; use a depth range with near below "
               "far, or "
               "--depth-order greater");
@@ -271,10 +271,10 @@ TEST_CASE("only the chip has a w buffer and it needs a perspective view") {
     options.depth_path = strata::rasterizer::DepthPath::w_buffer;
     options.depth = DepthFormat::d24;
     CHECK(
-        sentence({"geforce3", "shadow_map"}, options) ==
+        refusal_message({"geforce3", "shadow_map"}, options) ==
         "profile geforce3 has no w buffer for a parallel projection, whose w is 1 everywhere; use depth path window_z, "
         "or a camera with perspective");
-    CHECK(sentence({"geforce8", "dual"}, options) ==
+    CHECK(refusal_message({"geforce8", "dual"}, options) ==
           "profile geforce8 has no w buffer; use --profile geforce3 with --depth-format d16, d24, d16f or d24f");
 }
 
@@ -288,7 +288,7 @@ TEST_CASE("a stored w is compared only with w and a stored depth never with w") 
         options.depth_path = stored;
         options.reference_path = compared;
         const RenderResult result = render(draw_list(one_fragment()), view, {"geforce3", "shadow_map"}, options);
-        return result.refusal ? result.refusal->sentence(*find_profile("geforce3")) : std::string{};
+        return result.refusal ? result.refusal->message(*find_profile("geforce3")) : std::string{};
     };
     constexpr std::pair<DepthPath, DepthPath> unlike[] = {{DepthPath::w_buffer, DepthPath::perspective_rq},
                                                           {DepthPath::w_buffer, DepthPath::window_z},

@@ -36,7 +36,7 @@ std::string refusal_of(const DeviceProfile& profile, const DrawList& list, const
                        const Algorithm& algorithm) {
     Renderer renderer{list, parallel_view, profile, options};
     const RenderResult result = renderer.render(algorithm);
-    return result.refusal ? result.refusal->sentence(profile) : "rendered";
+    return result.refusal ? result.refusal->message(profile) : "rendered";
 }
 
 std::string error_of(const RenderOptions& options) {
@@ -83,7 +83,7 @@ TEST_CASE("the chip's own depths need one of its formats and a compared depth th
     for (const DepthPath path : {DepthPath::window_z, DepthPath::w_buffer}) {
         const auto with = [&](DepthFormat format) {
             const Verdict found = check_depth(float_depth, {path, format});
-            return found ? found->sentence(float_depth) : std::string{"had"};
+            return found ? found->message(float_depth) : std::string{"had"};
         };
         CHECK(with(DepthFormat::d24) == "had");
         CHECK(with(DepthFormat::d32f).find(path == DepthPath::window_z ? "depth interpolator window_z" : "w buffer") !=
@@ -92,7 +92,7 @@ TEST_CASE("the chip's own depths need one of its formats and a compared depth th
     const Verdict lacking =
         check_depth(*find_profile("geforce8"), {DepthPath::float32, DepthFormat::d24, DepthPath::depth_replace});
     REQUIRE(lacking);
-    CHECK(lacking->sentence(*find_profile("geforce8")).find("depth replace by texture shaders") != std::string::npos);
+    CHECK(lacking->message(*find_profile("geforce8")).find("depth replace by texture shaders") != std::string::npos);
 }
 
 TEST_CASE("an algorithm is rejected without a body or without enough render targets or for a constant w") {
@@ -136,14 +136,14 @@ TEST_CASE("a depth pass is rejected for its size and for its depth like any fram
     RenderOptions large = four_by_four();
     large.width = 16384;
     Renderer too_wide{list, parallel_view, *find_profile("geforce3"), large};
-    CHECK(too_wide.depth_pass().refusal.value().sentence(*find_profile("geforce3")).find("viewport of 16384 x 4") !=
+    CHECK(too_wide.depth_pass().refusal.value().message(*find_profile("geforce3")).find("viewport of 16384 x 4") !=
           std::string::npos);
     RenderOptions narrow = four_by_four();
     narrow.depth = DepthFormat::d16;
     Renderer lacks_depth{list, parallel_view, *find_profile("geforce8"), narrow};
     const RenderResult result = lacks_depth.depth_pass();
     CHECK(result.outcome == Outcome::refused);
-    CHECK(result.refusal.value().sentence(*find_profile("geforce8")).find("16-bit depth buffers") != std::string::npos);
+    CHECK(result.refusal.value().message(*find_profile("geforce8")).find("16-bit depth buffers") != std::string::npos);
 }
 
 TEST_CASE("a traced frame keeps its traces and does not change its audit") {

@@ -248,7 +248,7 @@ TEST_CASE(
         RenderOptions options = options_under(scene, ClipDepth::minus_one_to_one, DepthOrder::greater);
         change(options);
         const RenderResult result = render(draw_list(scene), {}, {profile, "depth_units"}, options);
-        return result.refusal ? result.refusal->sentence(*find_profile(profile)) : std::string{};
+        return result.refusal ? result.refusal->message(*find_profile(profile)) : std::string{};
     };
     using Catch::Contains;
     CHECK(refusal_of([](RenderOptions&) {}).empty());

@@ -171,7 +171,7 @@ TEST_CASE("Quincunx is available only on GeForce3 with two samples") {
         SampledRenderer other{
             scene.list, scene.view, *find_profile(profile), sampled_options(), {samples, Resolve::quincunx}};
         const RenderResult refused = other.render(algorithm);
-        return refused.refusal ? refused.refusal->sentence(*find_profile(profile)) : "";
+        return refused.refusal ? refused.refusal->message(*find_profile(profile)) : "";
     };
     CHECK(refusal_of("geforce8", 2) ==
           "profile geforce8 has no Quincunx filter of 2 samples (NV_multisample_filter_hint); "
@@ -183,7 +183,7 @@ TEST_CASE("features that no device supports with several samples are rejected") 
     const TriangleScene scene = random_triangles(1205, 4);
     const auto refusal_of = [&](const Machine& machine, int samples) {
         const RenderResult result = sampled(scene, machine, sampled_options(), samples).result;
-        return result.refusal ? result.refusal->sentence(*find_profile(machine.profile)) : "";
+        return result.refusal ? result.refusal->message(*find_profile(machine.profile)) : "";
     };
     CHECK(refusal_of({"geforce3", "depth_units"}, 8)
               .starts_with("profile geforce3 has no pictures of 8 samples per pixel (ARB_multisample)"));

@@ -164,7 +164,7 @@ TEST_CASE("a selection whose contract its program breaks is detected where selec
         state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
         state.depth_target = nearest;
         state.color[0] = region.make_color();
-        state.selection = {.keeps = Keeps::nearest};
+        state.selection = {.keeps = KeptFragments::nearest};
         static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads&, Outputs& out) {
             out.color[0] = in.color;
             for (int i = 0; drops_the_nearest && i < in.count; ++i)

@@ -33,14 +33,14 @@ using Rational = boost::multiprecision::cpp_rational;
 }
 
 // The multiple of 2^unit nearest to v that is no further from 0 than v.
-[[nodiscard]] inline Rational cut(const Rational& v, int unit) {
+[[nodiscard]] inline Rational truncate(const Rational& v, int unit) {
     const Rational scaled = abs(v) * power(-unit);
     const Rational result = Rational{floor(scaled)} * power(unit);
     return v < 0 ? Rational{-result} : result;
 }
 
-[[nodiscard]] inline Rational cut_to_bits(const Rational& v, int bits) {
-    return v == 0 ? v : cut(v, floor_log2(abs(v)) - bits + 1);
+[[nodiscard]] inline Rational truncate_to_bits(const Rational& v, int bits) {
+    return v == 0 ? v : truncate(v, floor_log2(abs(v)) - bits + 1);
 }
 
 // Nearest binary32, ties to even; subnormals included, overflow not.

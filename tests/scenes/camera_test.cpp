@@ -138,7 +138,7 @@ TEST_CASE(
             for (const ClipDepth clip : {ClipDepth::minus_one_to_one, ClipDepth::zero_to_one})
                 for (const DepthOrder order : {DepthOrder::less, DepthOrder::greater}) {
                     const ClipConvention between{from_clip, from_order}, to{clip, order};
-                    const View seen = as_seen_under(as_seen_under(view, {}, between), between, to);
+                    const View seen = with_clip_convention(with_clip_convention(view, {}, between), between, to);
                     const double least = clip == ClipDepth::zero_to_one ? 0 : -1;
                     for (const double z : {n, f}) {
                         const bool is_near = z == n;
@@ -147,5 +147,5 @@ TEST_CASE(
                                     {view.projection[0][0] * 0.3, view.projection[1][1] * -0.2, expected * z, z});
                     }
                 }
-    CHECK(as_seen_under(view, {}, {}).projection == view.projection);
+    CHECK(with_clip_convention(view, {}, {}).projection == view.projection);
 }

@@ -10,7 +10,7 @@
 
 using strata::scenes::inside_folder;
 using strata::scenes::path_inside;
-using Found = strata::scenes::InsideFolder::Found;
+using PathStatus = strata::scenes::InsideFolder::PathStatus;
 
 TEST_CASE("a name inside a folder is found and every path out of the folder is rejected") {
     namespace fs = std::filesystem;
@@ -25,24 +25,24 @@ TEST_CASE("a name inside a folder is found and every path out of the folder is r
     fs::create_symlink("below/b", root / "home/in");
     fs::create_symlink("loop", root / "home/loop");
     const std::string home = root / "home";
-    const auto found = [&](const std::string& name) { return inside_folder(home, name).found; };
+    const auto found = [&](const std::string& name) { return inside_folder(home, name).status; };
     for (const char* const name : {"a", "below/b", "./a", "below/./b", "in", "below//b"}) {
         INFO(name);
-        CHECK(found(name) == Found::inside);
+        CHECK(found(name) == PathStatus::inside);
     }
     CHECK(inside_folder(home, "in").path == fs::canonical(root / "home/below/b"));
     for (const std::string& name : {std::string{}, std::string{"../secret"}, std::string{"below/../../secret"},
                                     root / "secret", std::string{".."}, std::string{"a/.."}, std::string{"a\0b", 3}}) {
         INFO(name);
-        CHECK(found(name) == Found::name_leaves);
+        CHECK(found(name) == PathStatus::name_leaves);
     }
     for (const char* const name : {"out", "up/secret", "beside/c"}) {
         INFO(name);
-        CHECK(found(name) == Found::link_leaves);
+        CHECK(found(name) == PathStatus::link_leaves);
     }
     for (const char* const name : {"none", "loop", "below/a", "a/b"}) {
         INFO(name);
-        CHECK(found(name) == Found::nothing);
+        CHECK(found(name) == PathStatus::nothing);
     }
     CHECK(path_inside(home, "below/b", "file", "place") == root / "home/below/b");
     CHECK_THROWS_WITH(path_inside(home, "out", "file", "place"),

@@ -65,20 +65,20 @@ TEST_CASE("the frontier holds the points that no other dominates and the cheapes
 TEST_CASE("a sentence says how its row's setting changes the row's figures") {
     std::vector<CostRow> rows{row_of("default", "front_to_back", 0.5, 2), row_of("depth", "d16 exact", 0.75, 3)};
     rows[1].opened = "d16";
-    const auto sentences = sentences_of(rows);
-    REQUIRE(sentences.size() == 1);
+    const auto descriptions = descriptions_of(rows);
+    REQUIRE(descriptions.size() == 1);
     CHECK(
-        sentences[0] ==
+        descriptions[0] ==
         "made-up: depth d16 exact (with d16) instead of the default: 25.0000 % of pixels differ, RMSE 0.75 instead of "
         "0.5, 1.50 times the time (1.35 to 1.80), run literally 1.50 times the default's literal time, 1.50 times the "
         "card's.");
     // Rounds that overlap with those of the default, or too few rounds, give no significant ratio.
-    const std::string errors = sentences[0].substr(0, sentences[0].find(", 1.50 times the time"));
+    const std::string errors = descriptions[0].substr(0, descriptions[0].find(", 1.50 times the time"));
     rows[1].usual->least = rows[0].usual->greatest;
     rows[1].literal->runs = 3;
-    CHECK(sentences_of(rows)[0] == errors + ", no other time beyond the noise of 5 rounds, 1.50 times the card's.");
+    CHECK(descriptions_of(rows)[0] == errors + ", no other time beyond the noise of 5 rounds, 1.50 times the card's.");
     rows[1].usual->runs = 3;
-    CHECK(sentences_of(rows)[0] == errors + ", 3 rounds are too few to compare times, 1.50 times the card's.");
+    CHECK(descriptions_of(rows)[0] == errors + ", 3 rounds are too few to compare times, 1.50 times the card's.");
 }
 
 TEST_CASE(
@@ -95,7 +95,7 @@ TEST_CASE(
     CHECK(table.rows[2][5] == "noise");
     CHECK(table.rows[2][6] == "noise");
     CHECK(table.rows[3][4] == "refused");
-    CHECK(found_sentence(rows) ==
+    CHECK(summary_text(rows) ==
           "Of 3 choices other than the default, 1 change the picture, 1 do not, 1 are refused; 1 take another time "
           "beyond the "
           "noise of the rounds.");
@@ -105,7 +105,7 @@ TEST_CASE("a rejected row and a link of the chain have their own sentences") {
     std::vector<CostRow> rows{row_of("default", "dual", 0.5, 2), row_of("algorithm", "k_buffer rgba8", 0, 1),
                               row_of("chain", "snap", 0.125, 1), row_of("alone", "snap", 0.375, 1)};
     rows[1].refusal = "the card has none";
-    CHECK(sentences_of(rows) ==
+    CHECK(descriptions_of(rows) ==
           std::vector<std::string>{"made-up: algorithm k_buffer rgba8 is refused: the card has none.",
                                    "made-up: the chain exact up to snap leaves RMSE 0.125.",
                                    "made-up: snap exact alone leaves RMSE 0.375."});

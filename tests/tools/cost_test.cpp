@@ -64,18 +64,18 @@ TEST_CASE("errors and counts of a cost sweep are the same in shards or resumed o
     CHECK(content_of(folder / "shards/results.csv") == table);
     // A second run measures nothing and writes the report again.
     const std::string timings = content_of(folder / "whole/timings.jsonl");
-    const std::string sentences = content_of(folder / "whole/sentences.txt");
+    const std::string descriptions = content_of(folder / "whole/sentences.txt");
     REQUIRE(cost(folder, "whole").status == 0);
     CHECK(content_of(folder / "whole/timings.jsonl") == timings);
-    CHECK(content_of(folder / "whole/sentences.txt") == sentences);
+    CHECK(content_of(folder / "whole/sentences.txt") == descriptions);
 }
 
 TEST_CASE("every sentence agrees with its row and the exact end of the chain leaves an error of 0") {
     const Folder folder;
     REQUIRE(cost(folder, "out").status == 0);
     const auto rows = rows_of(content_of(folder / "out/cost.csv"));
-    const auto sentences = lines_of(content_of(folder / "out/sentences.txt"));
-    CHECK(sentences.size() + 1 == rows.size());  // the default has no sentence
+    const auto descriptions = lines_of(content_of(folder / "out/sentences.txt"));
+    CHECK(descriptions.size() + 1 == rows.size());  // the default has no sentence
     const TableRow* standard = nullptr;
     for (const auto& [name, row] : rows)
         if (row.at("knob") == "default") standard = &row;
@@ -86,13 +86,13 @@ TEST_CASE("every sentence agrees with its row and the exact end of the chain lea
         R"(teapot: (?:the (chain) exact up to (\w+)|(\w+) exact (alone)|the chain as the machine has it).* RMSE ([^ ]*?)(?: from the truth)?\.)");
     const std::regex refusal(R"(teapot: (.*) is refused: .*\.)");
     std::map<std::string, int> kinds;
-    for (const std::string& sentence : sentences) {
-        INFO(sentence);
+    for (const std::string& message : descriptions) {
+        INFO(message);
         std::smatch part;
-        if (std::regex_match(sentence, part, refusal)) {
+        if (std::regex_match(message, part, refusal)) {
             ++kinds["refused"];
             CHECK(rows.at(part[1]).at("outcome") == "refused");
-        } else if (std::regex_match(sentence, part, change)) {
+        } else if (std::regex_match(message, part, change)) {
             ++kinds["change"];
             const TableRow& row = rows.at(part[1]);
             CHECK(agrees(part[2], 100 * number(row, "from_default"), 4));
@@ -100,7 +100,7 @@ TEST_CASE("every sentence agrees with its row and the exact end of the chain lea
             CHECK(agrees(part[4], number(*standard, "rmse"), 5));
             CHECK(agrees(part[5], number(row, "modelled") / number(*standard, "modelled"), 2));
         } else {
-            REQUIRE(std::regex_match(sentence, part, link));
+            REQUIRE(std::regex_match(message, part, link));
             ++kinds["link"];
             const std::string name = part[1].matched   ? "chain " + part[2].str()
                                      : part[4].matched ? "alone " + part[3].str()

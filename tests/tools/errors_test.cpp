@@ -9,12 +9,12 @@ namespace {
 
 struct Wrong {
     std::vector<std::string> words;
-    std::string sentence;  // the whole message, or its beginning if it ends in "..."
+    std::string message;  // the whole message, or its beginning if it ends in "..."
 };
 
-bool says(const std::string& err, const std::string& sentence) {
-    if (sentence.ends_with("...")) return err.starts_with(sentence.substr(0, sentence.size() - 3));
-    return err == sentence + "\n";
+bool says(const std::string& err, const std::string& message) {
+    if (message.ends_with("...")) return err.starts_with(message.substr(0, message.size() - 3));
+    return err == message + "\n";
 }
 
 }  // namespace
@@ -165,9 +165,9 @@ TEST_CASE("a wrong argument gives exit status 2 and one error message with the e
     }));
     const Folder folder;
     const CommandResult ended = run_strata(folder, wrong.words);
-    INFO("wanted " << wrong.sentence << "\nfound  " << ended.err);
+    INFO("wanted " << wrong.message << "\nfound  " << ended.err);
     CHECK(ended.status == 2);
-    CHECK(says(ended.err, wrong.sentence));
+    CHECK(says(ended.err, wrong.message));
     CHECK(lines_of(ended.err).size() == 1);
     CHECK(ended.out.empty());
     CHECK(folder.files().empty());

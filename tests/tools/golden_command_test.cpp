@@ -60,10 +60,10 @@ TEST_CASE("a pack passes its check and replaces a scene and its options in every
 
 TEST_CASE("golden reports what it cannot do and which byte of a pack has changed") {
     const Folder folder;
-    const auto fails = [&](const std::vector<std::string>& words, const std::string& sentence) {
+    const auto fails = [&](const std::vector<std::string>& words, const std::string& message) {
         const CommandResult ended = run_strata(folder, words);
         CHECK(ended.status == 2);
-        CHECK_THAT(ended.err, Contains(sentence));
+        CHECK_THAT(ended.err, Contains(message));
     };
     fails({"golden"}, "strata: SCENE is missing; --check PACK needs none");
     fails({"golden", "teapot"}, "strata: -o is missing: the folder for the pack");

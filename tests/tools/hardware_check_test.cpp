@@ -93,21 +93,21 @@ TEST_CASE(
 
 TEST_CASE("hardware-check rejects wrong input with one error message") {
     const Folder folder;
-    const auto sentence = [&](const std::vector<std::string>& words) {
+    const auto message = [&](const std::vector<std::string>& words) {
         const CommandResult ended = run_strata(folder, words);
         CHECK(ended.status == 2);
         CHECK(lines_of(ended.err).size() == 1);
         return ended.err;
     };
-    CHECK(sentence({"hardware-check", "nowhere"}).find("nowhere") != std::string::npos);
+    CHECK(message({"hardware-check", "nowhere"}).find("nowhere") != std::string::npos);
     std::filesystem::create_directories(folder / "empty");
-    CHECK(sentence({"hardware-check", "empty"}).find("SUITE/NAME.png") != std::string::npos);
-    CHECK(sentence({"hardware-check", "empty", "--suite", "Claer"}).find("did you mean 'Clear'") != std::string::npos);
+    CHECK(message({"hardware-check", "empty"}).find("SUITE/NAME.png") != std::string::npos);
+    CHECK(message({"hardware-check", "empty", "--suite", "Claer"}).find("did you mean 'Clear'") != std::string::npos);
     write_capture(folder, "narrow/Clear", "C00000000_Depth_y", 0, 0, 320);
-    CHECK(sentence({"hardware-check", "narrow"}).find("640 x 480") != std::string::npos);
+    CHECK(message({"hardware-check", "narrow"}).find("640 x 480") != std::string::npos);
     std::filesystem::create_directories(folder / "broken/Clear");
     std::ofstream(folder / "broken/Clear/C00000000_Depth_y.png") << "no picture";
-    CHECK(sentence({"hardware-check", "broken"}).find("C00000000_Depth_y.png") != std::string::npos);
+    CHECK(message({"hardware-check", "broken"}).find("C00000000_Depth_y.png") != std::string::npos);
 }
 
 TEST_CASE("of several broken captures the first by name is reported in whatever order they are read") {

@@ -255,7 +255,7 @@ TEST_CASE("a sentence counts the outcomes of the cells and a row has the safe in
     endless.measured.ended = false;
     const Lines lines{to_line(0, some_cell(), right), to_line(1, some_cell(), some_result()),
                       to_line(2, some_cell(), endless)};
-    CHECK(found_sentence(lines) == "Of 3 cells, 1 peels every layer once, 1 loses or repeats layers, 1 never ends.");
+    CHECK(summary_text(lines) == "Of 3 cells, 1 peels every layer once, 1 loses or repeats layers, 1 never ends.");
     CHECK(field(to_csv(lines[0]), "safe_bias") == "3..20");
     const Table table = summary_table(lines);
     const auto safe = table.columns.size() - 2;

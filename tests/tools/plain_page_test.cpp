@@ -44,7 +44,7 @@ TEST_CASE("a page has its parts in order and every character of a text is escape
     page.heading("First");
     page.paragraph("x < y & \"z\"\x1b");
     page.table({{{"n"}, {"m"}}, {{"1", "</td>"}}}, "numbers");
-    page.sentence("found & said");
+    page.lead("found & said");
     page.items({"one <li>", "two"});
     page.items({});
     const std::string html = page.html();
@@ -127,11 +127,11 @@ TEST_CASE("every command with --report writes one page that refers to no other f
         CHECK(page.ends_with("</html>\n"));
         CHECK(stands_alone(page));
         // The result is the first sentence, numbers are in tables, and no picture's text is a file name.
-        const std::size_t sentence = page.find("<p class=\"lead\">");
+        const std::size_t message = page.find("<p class=\"lead\">");
         if (line.find("render") == std::string::npos) {
-            CHECK(sentence != std::string::npos);
-            CHECK(sentence < page.find("<table"));
-            CHECK(sentence < page.find("<img"));
+            CHECK(message != std::string::npos);
+            CHECK(message < page.find("<table"));
+            CHECK(message < page.find("<img"));
             CHECK(page.find("<pre") == std::string::npos);
         }
         for (std::size_t at = page.find("<figcaption>"); at != std::string::npos;

@@ -263,9 +263,9 @@ TEST_CASE("a report of at most 8 MiB loads nothing and is reproducible and lists
     CHECK(report.page.size() <= std::size_t{8} << 20);
     for (const std::string outside : {"http:", "https:", "src=", "@import", "url(", "fetch("})
         CHECK(report.page.find(outside) == std::string::npos);
-    std::string sentences;
-    for (const auto& sentence : report.document["left_out"]) sentences += sentence.get<std::string>();
-    CHECK((sentences.find("of 647242 fragments those behind the nearest") != std::string::npos) == leaves_out);
+    std::string messages;
+    for (const auto& message : report.document["left_out"]) messages += message.get<std::string>();
+    CHECK((messages.find("of 647242 fragments those behind the nearest") != std::string::npos) == leaves_out);
     if (!leaves_out) CHECK(report_of(folder, options).page == report.page);
 }
 

@@ -9,7 +9,7 @@ using namespace strata::test;
 TEST_CASE("numbers of samples are rejected by name and --sample where it would have no meaning") {
     struct Wrong {
         std::vector<std::string> words;
-        std::string sentence;
+        std::string message;
     };
     const auto wrong = GENERATE(values<Wrong>({
         {{"render", "teapot", "--samples", "3"}, "--samples: expected 1, 2, 4 or 8, found '3'"},
@@ -36,8 +36,8 @@ TEST_CASE("numbers of samples are rejected by name and --sample where it would h
     const CommandResult ended = run_strata(folder, wrong.words);
     CHECK(ended.status == 2);
     const std::vector<std::string> lines = lines_of(ended.err);
-    CHECK((!lines.empty() && lines.back().starts_with("strata: " + wrong.sentence.substr(0, 20))));
-    CHECK(ended.err.find(wrong.sentence) != std::string::npos);
+    CHECK((!lines.empty() && lines.back().starts_with("strata: " + wrong.message.substr(0, 20))));
+    CHECK(ended.err.find(wrong.message) != std::string::npos);
 }
 
 TEST_CASE("a picture records its samples and its command draws it again") {

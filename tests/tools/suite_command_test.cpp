@@ -66,10 +66,10 @@ TEST_CASE("golden --suite writes the packs of the listed commands and the mistak
 
 TEST_CASE("golden --suite rejects options of single packs and unknown scene names") {
     const Folder folder;
-    const auto fails = [&](const std::vector<std::string>& words, const std::string& sentence) {
+    const auto fails = [&](const std::vector<std::string>& words, const std::string& message) {
         const CommandResult ended = run_strata(folder, words);
         CHECK(ended.status == 2);
-        CHECK(ended.err == "strata: " + sentence + "\n");
+        CHECK(ended.err == "strata: " + message + "\n");
     };
     fails({"golden", "--suite", "-o", "set", "--algorithm", "dual"},
           "--suite excludes --algorithm: its scenes bring their own options");

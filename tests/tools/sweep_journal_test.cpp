@@ -21,7 +21,7 @@ std::string with_bytes(const Folder& folder, const std::string& bytes) {
 }
 
 template <class Action>
-std::string sentence_of(Action&& action) {
+std::string message_of(Action&& action) {
     try {
         action();
     } catch (const std::exception& error) {
@@ -75,7 +75,7 @@ TEST_CASE("a journal is read line by line and a last line without its end is tru
     CHECK_FALSE(read_journal(folder / "missing.jsonl").torn);
     const std::string first = line_text({{"cell", 0}}), whole = first + line_text({{"cell", 1}, {"x", {2}}});
     for (std::size_t bytes = 0; bytes <= whole.size(); ++bytes) {
-        const Found found = read_journal(with_bytes(folder, whole.substr(0, bytes)));
+        const JournalContents found = read_journal(with_bytes(folder, whole.substr(0, bytes)));
         const std::size_t lines = bytes < first.size() ? 0 : bytes < whole.size() ? 1 : 2;
         INFO(bytes << " bytes");
         CHECK(found.lines.size() == lines);
@@ -98,7 +98,7 @@ TEST_CASE("a line with any byte changed or removed or inserted is ignored and it
                       after = line_text({{"cell", 2}});
     std::string wrong;
     const auto try_it = [&](const std::string& changed, const std::string& what) {
-        const Found found = read_journal(with_bytes(folder, before + changed + after));
+        const JournalContents found = read_journal(with_bytes(folder, before + changed + after));
         if (found.changed != std::vector<std::size_t>{2} || found.numbers != std::vector<std::size_t>{1, 3})
             wrong += what + " ";
     };
@@ -120,12 +120,12 @@ TEST_CASE("lines are assigned to their cells and repeated ones and those with ot
     const Expected expected{.cells = {1, 4, 7},
                             .described = {{{"cell", 1}, {"scene", "a"}}, {{"cell", 4}, {"scene", "b"}}, {{"cell", 7}}},
                             .keys = {"cell", "found"}};
-    Found found{.lines = {{{"cell", 7}, {"found", 3}},
-                          {{"cell", 1}, {"scene", "a"}, {"found", 1}},
-                          {{"cell", 4}, {"scene", "b"}},
-                          {{"cell", 1}, {"scene", "a"}, {"found", 2}}},
-                .numbers = {1, 2, 5, 6},
-                .changed = {3, 4}};
+    JournalContents found{.lines = {{{"cell", 7}, {"found", 3}},
+                                    {{"cell", 1}, {"scene", "a"}, {"found", 1}},
+                                    {{"cell", 4}, {"scene", "b"}},
+                                    {{"cell", 1}, {"scene", "a"}, {"found", 2}}},
+                          .numbers = {1, 2, 5, 6},
+                          .changed = {3, 4}};
     const Lines lines = lines_of_cells("f", found, expected);
     REQUIRE(lines.size() == 3);
     CHECK(lines[0]["found"] == 1);
@@ -138,8 +138,8 @@ TEST_CASE("a line of another plan is rejected with its number and the key that d
     const Expected expected{
         .cells = {0, 1}, .described = {{{"cell", 0}, {"scene", "a"}}, {{"cell", 1}, {"scene", "b"}}}, .keys = {"cell"}};
     const auto said = [&](const ordered_json& line) {
-        return sentence_of([&] {
-            Found found{.lines = {line}, .numbers = {9}};
+        return message_of([&] {
+            JournalContents found{.lines = {line}, .numbers = {9}};
             static_cast<void>(lines_of_cells("f", found, expected));
         });
     };
@@ -159,7 +159,7 @@ TEST_CASE("a journal removes a truncated line and appends whole lines that are i
     const Folder folder;
     const std::string first = line_text({{"cell", 0}});
     const std::string path = with_bytes(folder, first + "{\"cel");
-    const Found found = read_journal(path);
+    const JournalContents found = read_journal(path);
     {
         Journal journal(path, found.whole_bytes);
         CHECK(strata::test::content_of(path) == first);

@@ -16,7 +16,7 @@ using Pixel = std::array<std::uint32_t, 4>;  // r g b a
 constexpr std::uint32_t label = 0x00ffffff;  // (255, 255, 255, 0)
 
 // Only colour pictures have labels, which are recognised by their colour.
-bool reads_color(Reading reading) { return reading == Reading::color || reading == Reading::drawn; }
+bool reads_color(CaptureFormat reading) { return reading == CaptureFormat::color || reading == CaptureFormat::drawn; }
 bool contains(const rasterizer::Rect& r, int x, int y) { return x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1; }
 
 std::uint32_t packed(const Pixel& p) { return p[0] | p[1] << 8 | p[2] << 16 | p[3] << 24; }
@@ -42,14 +42,14 @@ std::uint32_t packed_codes(const std::uint32_t* c) { return c[0] | c[1] << 8 | c
 // The words of a row of the drawn picture; their_row() is the same for the capture.
 Row our_row(const Picture& drawn, int y) {
     switch (drawn.reading) {
-        case Reading::color: return row_of(drawn.image, y, packed_codes);
-        case Reading::drawn: {
+        case CaptureFormat::color: return row_of(drawn.image, y, packed_codes);
+        case CaptureFormat::drawn: {
             const std::uint32_t background = packed(drawn.background);
             return row_of(drawn.image, y,
                           [=](const std::uint32_t* c) { return std::uint32_t{packed_codes(c) != background}; });
         }
-        case Reading::depth16: return row_of(drawn.image, y, [](const std::uint32_t* c) { return *c; });
-        case Reading::depth24: {
+        case CaptureFormat::depth16: return row_of(drawn.image, y, [](const std::uint32_t* c) { return *c; });
+        case CaptureFormat::depth24: {
             Row row = row_of(drawn.image, y, [](const std::uint32_t* c) { return *c << 8; });
             for (int x = 0; x < picture_width && !drawn.stencil.codes.empty(); ++x)
                 row[static_cast<std::size_t>(x)] |= drawn.stencil.codes[drawn.stencil.index(x, y)];
@@ -64,14 +64,14 @@ Row our_row(const Picture& drawn, int y) {
 Row their_row(const Picture& drawn, const Image& capture, int y) {
     using Codes = const std::uint32_t*;
     switch (drawn.reading) {
-        case Reading::color: return row_of(capture, y, packed_codes);
-        case Reading::drawn: {
+        case CaptureFormat::color: return row_of(capture, y, packed_codes);
+        case CaptureFormat::drawn: {
             const std::uint32_t background = packed(drawn.background);
             return row_of(capture, y, [=](Codes c) { return std::uint32_t{packed_codes(c) != background}; });
         }
-        case Reading::depth16:
+        case CaptureFormat::depth16:
             return row_of(capture, y, [](Codes c) { return (c[0] >> 3) << 11 | (c[1] >> 2) << 5 | c[2] >> 3; });
-        case Reading::depth24: {
+        case CaptureFormat::depth24: {
             const std::uint32_t stencil = drawn.stencil.codes.empty() ? 0 : 0xff;
             return row_of(capture, y, [=](Codes c) { return c[3] << 24 | c[0] << 16 | c[1] << 8 | (c[2] & stencil); });
         }
@@ -84,11 +84,11 @@ bool is_hidden(const Picture& drawn, int x, int y) {
                        [&](const rasterizer::Rect& r) { return contains(r, x, y); });
 }
 
-// 1 if a capture's pixel is a label, else 0. `theirs` is their_row() of the same row: for Reading::color its words are
-// the colours.
+// 1 if a capture's pixel is a label, else 0. `theirs` is their_row() of the same row: for CaptureFormat::color its
+// words are the colours.
 Row labels_of(const Picture& drawn, const Image& capture, const Row& theirs, int y) {
     if (!reads_color(drawn.reading)) return {};
-    Row labels = drawn.reading == Reading::color ? theirs : row_of(capture, y, packed_codes);
+    Row labels = drawn.reading == CaptureFormat::color ? theirs : row_of(capture, y, packed_codes);
     const std::uint32_t other = drawn.overdrawn ? packed(*drawn.overdrawn) : label;
     for (std::uint32_t& each : labels) each = std::uint32_t{each == label} | std::uint32_t{each == other};
     return labels;
@@ -121,15 +121,15 @@ void for_each_pixel(const Picture& drawn, const Image& capture, F&& f) {
 }
 
 // The capture's word minus ours, in the reading's units.
-std::int64_t difference(Reading reading, std::uint32_t ours, std::uint32_t theirs) {
-    if (reading == Reading::color) {
+std::int64_t difference(CaptureFormat reading, std::uint32_t ours, std::uint32_t theirs) {
+    if (reading == CaptureFormat::color) {
         std::int64_t worst = 0;
         for (int shift = 0; shift < 32; shift += 8)
             worst =
                 std::max(worst, std::abs(std::int64_t{theirs >> shift & 0xff} - std::int64_t{ours >> shift & 0xff}));
         return worst;
     }
-    const bool has_depth = reading == Reading::depth24 && (ours ^ theirs) > 0xff;
+    const bool has_depth = reading == CaptureFormat::depth24 && (ours ^ theirs) > 0xff;
     return has_depth ? std::int64_t{theirs >> 8} - std::int64_t{ours >> 8} : std::int64_t{theirs} - std::int64_t{ours};
 }
 

@@ -26,7 +26,7 @@ inline constexpr int picture_width = 640, picture_height = 480;
 
 // How a capture's bytes are interpreted and compared. Its channels may contain depth words, because the test can only
 // save colours.
-enum class Reading : std::uint8_t {
+enum class CaptureFormat : std::uint8_t {
     color,    // r g b a
     drawn,    // only whether a pixel differs from `background`
     depth16,  // a 16-bit depth stored as R5G6B5
@@ -43,12 +43,12 @@ struct Bound {
 
 // The picture that a suite drew for one name, and how it is compared.
 struct Picture {
-    Reading reading = Reading::color;
+    CaptureFormat reading = CaptureFormat::color;
     // rgba8 for colours; else the depth buffer in its own format.
     pipeline::Image image{};
     // With depth24, if the test has a stencil; else empty.
     pipeline::Image stencil{};
-    // The clear colour, r g b a; only for Reading::drawn.
+    // The clear colour, r g b a; only for CaptureFormat::drawn.
     std::array<std::uint8_t, 4> background{};
     // Half-open rectangles that are not compared. Label pixels of a colour capture, (255, 255, 255, 0), need none.
     std::vector<rasterizer::Rect> hidden{};
@@ -77,7 +77,7 @@ struct Suite {
     std::string_view name;  // the folder's name
     Drawing (*draw)(std::string_view picture, const pipeline::DeviceProfile& profile);
     // The subjects of undetermined rules on which its pictures depend; 0: none.
-    Subjects tells = 0;
+    Subjects determines = 0;
     // For a suite whose test loaded images: draws with `textures`, the folder that contains them; `draw` draws without
     // it. Null for other suites.
     Drawing (*draw_with)(std::string_view picture, const pipeline::DeviceProfile& profile,

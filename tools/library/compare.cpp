@@ -54,7 +54,7 @@ Picture picture_at(const std::string& path, const std::string& algorithm) {
 }
 
 // "color at 118 pixels, first at (17, 20)" for each kind that the tolerances do not accept.
-std::string sentence(const Comparison& found) {
+std::string description(const Comparison& found) {
     std::string text;
     for (const oracle::KindReport& kind : found.kinds) {
         if (kind.beyond == 0) continue;
@@ -64,7 +64,7 @@ std::string sentence(const Comparison& found) {
         if (!kind.detail.empty()) text += ", " + kind.detail;
     }
     for (const oracle::Explanation& mistake : found.explanations)
-        if (mistake.is_whole()) return text + "; all of it is " + mistake.sentence;
+        if (mistake.is_whole()) return text + "; all of it is " + mistake.description;
     return text;
 }
 
@@ -106,7 +106,7 @@ Checked check(const Picture& candidate, const Reference& reference, const Tolera
     }
     if (found.accepted)
         return {true, found.equal ? "equals " + reference.name() : "is accepted for " + reference.name()};
-    return {false, "differs from " + reference.name() + ": " + sentence(found) + "; " +
+    return {false, "differs from " + reference.name() + ": " + description(found) + "; " +
                        leave_pictures(candidate, reference, found)};
 }
 

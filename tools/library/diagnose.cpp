@@ -44,11 +44,11 @@ Diagnosed diagnose(const Scene& scene, const Picture& candidate, const Algorithm
     const bool has_depth = std::ranges::find(candidate.targets, oracle::Meaning::depth, &oracle::Target::meaning) !=
                            candidate.targets.end();
     const View view = scene.view(of_candidate.width, of_candidate.height);
-    const oracle::Laboratory laboratory{{scene.list(), view, profile, of_candidate},
-                                        algorithm,
-                                        has_depth ? oracle::Depths::made : oracle::Depths::left_out};
-    const oracle::Lineup lineup{laboratory};
-    return {lineup.diagnose(candidate, tolerances), compare(laboratory.right(), candidate, tolerances)};
+    const oracle::MistakeRenderer mistake_renderer{{scene.list(), view, profile, of_candidate},
+                                                   algorithm,
+                                                   has_depth ? oracle::Depths::made : oracle::Depths::left_out};
+    const oracle::MistakeImages mistake_images{mistake_renderer};
+    return {mistake_images.diagnose(candidate, tolerances), compare(mistake_renderer.right(), candidate, tolerances)};
 }
 
 }  // namespace v0_1

@@ -50,7 +50,7 @@ std::vector<Layer> layers(const Scene& scene, const Algorithm& algorithm, const 
     peeling::RenderResult result = renderer_of(scene, profile, kept).render(algorithm);
     if (result.refusal) throw Refused{profile, *std::move(result.refusal)};
     std::vector<Layer> near_to_far, from_behind;
-    for (pipeline::KeptLayer& kept_layer : result.frame.layers) {
+    for (pipeline::PeeledLayer& kept_layer : result.frame.layers) {
         const bool is_back = kept_layer.side == pipeline::Side::back;
         // A peel from both ends may have an empty last layer.
         if (algorithm.takes_both_ends &&
@@ -68,12 +68,12 @@ std::vector<CapturedFragment> fragments(const Scene& scene, const Algorithm& alg
     return renderer_of(scene, profile, options).fragments(algorithm).all;
 }
 
-std::vector<oracle::PassShown> passes(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,
-                                      const RenderOptions& options) {
-    std::vector<oracle::PassShown> shown;
+std::vector<oracle::PassReport> passes(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,
+                                       const RenderOptions& options) {
+    std::vector<oracle::PassReport> shown;
     const View view = scene.view(options.width, options.height);
     oracle::passes(input_of(scene, view, profile, options), algorithm,
-                   [&](oracle::PassShown&& pass) { shown.push_back(std::move(pass)); });
+                   [&](oracle::PassReport&& pass) { shown.push_back(std::move(pass)); });
     return shown;
 }
 

@@ -28,7 +28,7 @@ constexpr bool is_float(Code code) noexcept { return code == Code::half || code 
 constexpr bool is_unorm(Code code) noexcept { return !is_float(code) && code != Code::integer; }
 
 // True if all values of `integer`, rounded to `wide`, are distinct.
-constexpr bool tells_apart(Code wide, Code integer) noexcept {
+constexpr bool distinguishes(Code wide, Code integer) noexcept {
     return is_unorm(integer) &&
            (wide == Code::single || (wide == Code::half && (integer == Code::unorm8 || integer == Code::unorm10)));
 }
@@ -78,8 +78,8 @@ bool is_equal(Stored reference, Stored candidate) noexcept {
     // Plain integers, as from NumPy files, are compared as codes.
     if (reference.code == Code::integer || candidate.code == Code::integer) return reference.word == candidate.word;
     const double r = value(reference.code, reference.word), c = value(candidate.code, candidate.word);
-    if (tells_apart(candidate.code, reference.code)) return nearest(candidate.code, r) == candidate.word;
-    if (tells_apart(reference.code, candidate.code)) return nearest(reference.code, c) == reference.word;
+    if (distinguishes(candidate.code, reference.code)) return nearest(candidate.code, r) == candidate.word;
+    if (distinguishes(reference.code, candidate.code)) return nearest(reference.code, c) == reference.word;
     if (is_unorm(reference.code) && is_unorm(candidate.code)) {
         const std::uint64_t of_reference = (std::uint64_t{1} << integer_bits(reference.code)) - 1;
         const std::uint64_t of_candidate = (std::uint64_t{1} << integer_bits(candidate.code)) - 1;

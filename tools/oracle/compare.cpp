@@ -190,7 +190,7 @@ Comparison compare(const Picture& reference, const Picture& candidate, const Tol
     }
     KindReport& coverage = kinds[static_cast<std::size_t>(Kind::coverage)];
     if (coverage.pixels > 0)
-        coverage.detail = compare_coverage(*sorter.masks(), result.width, result.height).sentence();
+        coverage.detail = compare_coverage(*sorter.masks(), result.width, result.height).description();
     spend_all(tolerances, kinds, result);
     std::erase_if(kinds, [](const KindReport& kind) { return kind.pixels == 0; });
     result.kinds = std::move(kinds);

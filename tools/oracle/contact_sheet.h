@@ -13,7 +13,7 @@ namespace strata::oracle {
 
 class ContactSheet {
   public:
-    void add(const PassShown& pass);
+    void add(const PassReport& pass);
     // Adds a row; the targets in `framed` have a light frame.
     void add(const std::string& caption, const std::vector<NamedImage>& targets,
              const std::vector<std::string>& framed);

@@ -213,7 +213,7 @@ CoverageReport compare_coverage(const Masks& masks, int width, int height) {
     return report;
 }
 
-std::string CoverageReport::sentence() const {
+std::string CoverageReport::description() const {
     const std::string counts = fmt::format("{} gained, {} lost", gained, lost);
     switch (mistake) {
         case CoverageMistake::none: return "the same pixels are drawn";

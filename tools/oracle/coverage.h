@@ -38,7 +38,7 @@ struct CoverageReport {
     CoverageMistake mistake = CoverageMistake::none;
     std::uint64_t gained = 0, lost = 0, inner = 0;  // inner: away from the reference's borders
     double moved_x = 0, moved_y = 0;                // mean over the borders that both masks have, in pixels
-    [[nodiscard]] std::string sentence() const;
+    [[nodiscard]] std::string description() const;
 };
 
 [[nodiscard]] CoverageReport compare_coverage(const Masks& masks, int width, int height);

@@ -19,7 +19,7 @@ using Computed = std::function<double(const Target& reference, std::size_t pixel
 
 struct Mistake {
     const char* name;
-    const char* sentence;
+    const char* description;
     Meaning meaning = Meaning::color;
     Moved moved{};
     Computed computed{};
@@ -46,9 +46,9 @@ std::vector<Mistake> of_places() {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(t.width) + static_cast<std::size_t>(x);
     };
     std::vector<Mistake> all;
-    const auto add = [&](const char* name, const char* sentence, auto place) {
+    const auto add = [&](const char* name, const char* description, auto place) {
         for (const Meaning meaning : {Meaning::color, Meaning::depth})
-            all.push_back({name, sentence, meaning, [=](const Target& t, int x, int y) {
+            all.push_back({name, description, meaning, [=](const Target& t, int x, int y) {
                                const auto [from_x, from_y] = place(t, x, y);
                                return index(t, from_x, from_y);
                            }});
@@ -190,7 +190,7 @@ std::vector<Explanation> explanations(std::span<const Pair> pairs) {
     std::map<std::string, std::uint64_t> evidence;
     for (const Mistake& mistake : mistakes) {
         // A movement affects colours and depths alike: one entry sums both.
-        if (found.empty() || found.back().mistake != mistake.name) found.push_back({mistake.name, mistake.sentence});
+        if (found.empty() || found.back().mistake != mistake.name) found.push_back({mistake.name, mistake.description});
         for (const Pair& pair : pairs)
             if (pair.reference->meaning == mistake.meaning) count(mistake, pair, found.back(), evidence[mistake.name]);
     }

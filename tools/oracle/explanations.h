@@ -16,8 +16,8 @@
 namespace strata::oracle {
 
 struct Explanation {
-    std::string mistake;   // "flipped_rows"
-    std::string sentence;  // a description of the candidate
+    std::string mistake;      // "flipped_rows"
+    std::string description;  // a description of the candidate
     std::uint64_t explained = 0, of = 0, contradicted = 0;
     [[nodiscard]] bool is_whole() const noexcept { return explained == of && contradicted == 0; }
 };

@@ -157,7 +157,7 @@ class Recorder {
         return static_cast<std::uint32_t>(histories_[slot].y * width_ + histories_[slot].x);
     }
 
-    [[nodiscard]] Held held(const Region& region, pipeline::Target target, std::uint32_t pixel) const {
+    [[nodiscard]] TargetValues held(const Region& region, pipeline::Target target, std::uint32_t pixel) const {
         return {names_.of(target), region.storage(target).format(), codes_of(region, target, pixel), {}};
     }
 

@@ -45,7 +45,7 @@ enum class Fate : std::uint8_t {
 [[nodiscard]] std::string_view name(Fate fate) noexcept;
 
 // All samples of a pixel, with interleaved channels.
-struct Held {
+struct TargetValues {
     std::string target{};
     pipeline::Format format{};
     std::vector<std::uint32_t> before{}, after{};  // of a target that is read: `before` only
@@ -66,8 +66,9 @@ struct Line {
     LineKind kind{};
     int pass = 0;  // as in passes(); for clears and copies the pass that follows; for opaque fragments -1
     int iteration = 0;
-    std::string from{};        // source of a copy
-    std::vector<Held> held{};  // the targets that may change (clear, copy, fragment, quad), or the image (published)
+    std::string from{};  // source of a copy
+    std::vector<TargetValues>
+        held{};  // the targets that may change (clear, copy, fragment, quad), or the image (published)
     // The following members are for fragments and quads.
     int fragment = -1;  // index among the pixel's fragments, or among its opaque ones; -1: a quad
     Fate fate = Fate::passed;
@@ -75,7 +76,7 @@ struct Line {
     std::string depth_target{}, stencil_target{};
     std::uint32_t depth_code = 0;                   // the depth that is tested and stored
     std::optional<std::uint32_t> reference_code{};  // the depth that the program compares, if it is another one
-    std::vector<Held> reads{};
+    std::vector<TargetValues> reads{};
     std::vector<Output> outputs{};
     // For queries.
     std::uint64_t count = 0;

@@ -25,15 +25,15 @@ ordered_json bits(const std::array<float, 4>& color) {
     return {bits(color[0]), bits(color[1]), bits(color[2]), bits(color[3])};
 }
 
-ordered_json json_of_held(const Held& h) {
+ordered_json json_of_held(const TargetValues& h) {
     ordered_json document{{"target", h.target}, {"format", pipeline::info(h.format).name}, {"before", h.before}};
     if (!h.after.empty()) document["after"] = h.after;
     return document;
 }
 
-ordered_json all_held(const std::vector<Held>& list) {
+ordered_json all_held(const std::vector<TargetValues>& list) {
     ordered_json array = ordered_json::array();
-    for (const Held& h : list) array.push_back(json_of_held(h));
+    for (const TargetValues& h : list) array.push_back(json_of_held(h));
     return array;
 }
 

@@ -29,9 +29,9 @@ std::string of_fragment(const FragmentFact& f, std::string_view mark, std::size_
     return text + '\n';
 }
 
-std::string of_held(const std::vector<Held>& held) {
+std::string of_held(const std::vector<TargetValues>& held) {
     std::string text;
-    for (const Held& h : held) {
+    for (const TargetValues& h : held) {
         text += fmt::format("; {} {}", h.target, hex(h.before));
         if (!h.after.empty()) text += h.after == h.before ? " stays" : " becomes " + hex(h.after);
     }
@@ -67,7 +67,7 @@ std::string of_line(const Line& line) {
     if (line.fate == Fate::depth_killed) text += fmt::format(" ({:x} against {})", line.depth_code, line.depth_target);
     if (line.reference_code)
         text += fmt::format("; stores {:08x}, compares {:08x}", line.depth_code, *line.reference_code);
-    for (const Held& read : line.reads) text += fmt::format("; reads {} {}", read.target, hex(read.before));
+    for (const TargetValues& read : line.reads) text += fmt::format("; reads {} {}", read.target, hex(read.before));
     return text + of_held(line.held);
 }
 
@@ -91,7 +91,7 @@ std::string to_text(const History& history) {
 }
 
 std::vector<std::string> first_differences(std::span<const History> histories) {
-    std::vector<std::string> sentences;
+    std::vector<std::string> descriptions;
     const auto picture = [](const History& history) {
         return history.lines.empty() ? std::vector<std::uint32_t>{} : history.lines.back().held.at(0).before;
     };
@@ -111,9 +111,9 @@ std::vector<std::string> first_differences(std::span<const History> histories) {
         text += picture(first) == picture(other)
                     ? "; the picture has the same bits"
                     : fmt::format("; the picture has {} against {}", hex(picture(other)), hex(picture(first)));
-        sentences.push_back(std::move(text));
+        descriptions.push_back(std::move(text));
     }
-    return sentences;
+    return descriptions;
 }
 
 }  // namespace strata::oracle

@@ -53,7 +53,7 @@ namespace {
 
 class Collector {
   public:
-    Collector(const std::function<void(PassShown&&)>& on_pass, const peeling::AsShown& shown)
+    Collector(const std::function<void(PassReport&&)>& on_pass, const peeling::AsShown& shown)
         : on_pass_{on_pass}, shown_{shown} {}
 
     void name(pipeline::Target target, std::string_view name) { names_.add(target, name); }
@@ -110,18 +110,18 @@ class Collector {
         ended_ = std::exchange(next_, {});
     }
 
-    const std::function<void(PassShown&&)>& on_pass_;
+    const std::function<void(PassReport&&)>& on_pass_;
     peeling::AsShown shown_;
     TargetNames names_;
-    PassShown next_{};
-    std::optional<PassShown> ended_{};
+    PassReport next_{};
+    std::optional<PassReport> ended_{};
     int number_ = 0;
 };
 
 }  // namespace
 
-void passes(const RunInput& input, const peeling::Algorithm& algorithm, const std::function<void(PassShown&&)>& on_pass,
-            const pipeline::Alteration* alteration) {
+void passes(const RunInput& input, const peeling::Algorithm& algorithm,
+            const std::function<void(PassReport&&)>& on_pass, const pipeline::Alteration* alteration) {
     Collector collector{on_pass, {input.options, input.profile}};
     const pipeline::Observer observer{
         .named = [&](pipeline::Target target, std::string_view name) { collector.name(target, name); },

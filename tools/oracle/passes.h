@@ -31,7 +31,7 @@ struct Query {
     bool goes_on = false;
 };
 
-struct PassShown {
+struct PassReport {
     int number = 0;  // from 0
     PassKind kind{};
     int iteration = 0;                  // 0: before the first iteration
@@ -44,8 +44,8 @@ struct PassShown {
 
 // Calls `on_pass` for one pass after another; it may keep the images. Throws Refused if the profile lacks a feature.
 // `alteration` makes a run with a mistake.
-void passes(const RunInput& input, const peeling::Algorithm& algorithm, const std::function<void(PassShown&&)>& on_pass,
-            const pipeline::Alteration* alteration = nullptr);
+void passes(const RunInput& input, const peeling::Algorithm& algorithm,
+            const std::function<void(PassReport&&)>& on_pass, const pipeline::Alteration* alteration = nullptr);
 
 // Names of targets by their numbers, for observers.
 class TargetNames {

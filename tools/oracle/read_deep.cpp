@@ -21,7 +21,7 @@ constexpr std::size_t most_samples = std::size_t{1} << 26;  // of all layers, pa
 // Channels of one type, sample by sample.
 struct Channels {
     Code code = Code::single;
-    std::vector<scenes::ChannelPlace> places{};
+    std::vector<scenes::ChannelLayout> places{};
 
     [[nodiscard]] std::uint32_t word(const StoredPart& part, std::size_t sample, std::size_t channel) const {
         std::uint32_t word = 0;
@@ -35,7 +35,7 @@ Channels channels_of(const StoredPart& part, const std::vector<const char*>& nam
     Channels channels;
     for (const char* name : names)
         if (const auto place = find_channel(part.header, name)) channels.places.push_back(*place);
-    for (const scenes::ChannelPlace& place : channels.places)
+    for (const scenes::ChannelLayout& place : channels.places)
         if (place.type != channels.places[0].type || place.type == scenes::StoredType::word)
             throw InputError(path, "deep part", "channels of one type, half or binary32", "others");
     if (!channels.places.empty() && channels.places[0].type == scenes::StoredType::half) channels.code = Code::half;

@@ -47,7 +47,7 @@ Target of_channels(const StoredPart& part, const std::vector<std::string>& names
     target.codes.resize(target.pixels() * names.size());
     const std::size_t stride = pixel_bytes(part.header);
     for (std::size_t c = 0; c < names.size(); ++c) {
-        const scenes::ChannelPlace place = *scenes::find_channel(part.header, names[c]);
+        const scenes::ChannelLayout place = *scenes::find_channel(part.header, names[c]);
         target.code = code_of_channel(place.type);
         for (std::size_t i = 0; i < target.pixels(); ++i)
             std::memcpy(&target.codes[i * names.size() + c], &part.bytes[i * stride + place.offset],

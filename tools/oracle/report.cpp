@@ -37,7 +37,7 @@ std::string histogram(const TargetReport& target) {
 
 std::string share(const Explanation& e) {
     const double percent = 100.0 * static_cast<double>(e.explained) / static_cast<double>(e.of);
-    return fmt::format("{:.1f} % of the differing pixels are those of {}{}", percent, e.sentence,
+    return fmt::format("{:.1f} % of the differing pixels are those of {}{}", percent, e.description,
                        e.contradicted == 0 ? "" : fmt::format("; {} equal pixels speak against it", e.contradicted));
 }
 
@@ -96,7 +96,7 @@ std::string to_json(const Comparison& c) {
     document["explanations"] = ordered_json::array();
     for (const Explanation& e : c.explanations)
         document["explanations"].push_back({{"mistake", e.mistake},
-                                            {"sentence", e.sentence},
+                                            {"sentence", e.description},
                                             {"explained", e.explained},
                                             {"of", e.of},
                                             {"contradicted", e.contradicted}});

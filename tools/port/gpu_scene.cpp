@@ -85,11 +85,11 @@ Handle make_layout(const Handle& vertices, const Handle& indices, GLuint attribu
 
 }  // namespace
 
-GpuScene::GpuScene(const Mesh& mesh, Size size, const Way& way)
-    : way_{way},
+GpuScene::GpuScene(const Mesh& mesh, Size size, const PortSettings& settings)
+    : settings_{settings},
       size_{size},
       two_sided_{std::ranges::any_of(mesh.vertices, [](const Vertex& v) { return v.front != v.back; })},
-      vertices_{make_buffer<float>(GL_ARRAY_BUFFER, packed(mesh.vertices, two_sided_, way.colors_in_bytes))},
+      vertices_{make_buffer<float>(GL_ARRAY_BUFFER, packed(mesh.vertices, two_sided_, settings.colors_in_bytes))},
       indices_{make_buffer<std::uint32_t>(GL_ARRAY_BUFFER, mesh.indices)},
       layout_{make_layout(vertices_, indices_, two_sided_ ? 3 : 2)} {
     add_runs(mesh);
@@ -101,8 +101,8 @@ void GpuScene::add_runs(const Mesh& mesh) {
         const auto kind = static_cast<std::size_t>(draw.transparent ? Surfaces::transparent : Surfaces::opaque);
         std::vector<Run>& runs = runs_[kind];
         const int all = static_cast<int>(draw.index_count);
-        const auto count = static_cast<GLsizei>(std::max(0, all - way_.indices_left_out));
-        const bool joins = !runs.empty() && ends[kind] == draw.first_index && way_.indices_left_out == 0 &&
+        const auto count = static_cast<GLsizei>(std::max(0, all - settings_.indices_left_out));
+        const bool joins = !runs.empty() && ends[kind] == draw.first_index && settings_.indices_left_out == 0 &&
                            runs.back().double_sided == draw.double_sided && runs.back().mirrored == draw.mirrored;
         if (joins)
             runs.back().count += count;
@@ -114,9 +114,9 @@ void GpuScene::add_runs(const Mesh& mesh) {
 
 void GpuScene::draw(Surfaces surfaces) const {
     for (const Run& run : runs_[static_cast<std::size_t>(surfaces)]) {
-        const bool culls = way_.culling != Culling::as_listed || !run.double_sided;
+        const bool culls = settings_.culling != Culling::as_listed || !run.double_sided;
         (culls ? glEnable : glDisable)(GL_CULL_FACE);
-        glCullFace(way_.culling == Culling::always_front ? GL_FRONT : GL_BACK);
+        glCullFace(settings_.culling == Culling::always_front ? GL_FRONT : GL_BACK);
         glFrontFace(run.mirrored ? GL_CW : GL_CCW);
         glDrawElements(GL_TRIANGLES, run.count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(run.first_byte));
     }
@@ -124,16 +124,16 @@ void GpuScene::draw(Surfaces surfaces) const {
 
 Handle GpuScene::make_program(const std::string& fragment, const std::vector<std::string>& samplers) const {
     std::string head = two_sided_ ? "#define TWO_SIDED\n" : "";
-    head += fmt::format("#define INTERPOLATION {}\n#define IS_FRONT ({})\n#define TEXEL ({})\n", way_.interpolation,
-                        way_.is_front, way_.texel);
-    if (way_.shift_px != 0)
-        head += fmt::format("#define SHIFT vec2({}, -{})\n", 2.0 * way_.shift_px / size_.width,
-                            2.0 * way_.shift_px / size_.height);
+    head += fmt::format("#define INTERPOLATION {}\n#define IS_FRONT ({})\n#define TEXEL ({})\n",
+                        settings_.interpolation, settings_.is_front, settings_.texel);
+    if (settings_.shift_px != 0)
+        head += fmt::format("#define SHIFT vec2({}, -{})\n", 2.0 * settings_.shift_px / size_.width,
+                            2.0 * settings_.shift_px / size_.height);
     return port::make_program({.head = head,
                                .vertex = vertex_text,
                                .fragment = shade_text + fragment,
                                .samplers = samplers,
-                               .units_set = way_.units_set});
+                               .units_set = settings_.units_set});
 }
 
 }  // namespace strata::port

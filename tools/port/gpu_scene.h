@@ -2,7 +2,7 @@
 // through.
 #pragma once
 #include "tools/port/mesh.h"
-#include "tools/port/way.h"
+#include "tools/port/port_settings.h"
 
 namespace strata::port {
 
@@ -13,7 +13,7 @@ enum class Surfaces : std::uint8_t { opaque, transparent };
 class GpuScene {
   public:
     // Uploads the mesh, which is not needed afterwards.
-    GpuScene(const Mesh& mesh, Size size, const Way& way);
+    GpuScene(const Mesh& mesh, Size size, const PortSettings& settings);
 
     // Draws the selected triangles in order, in one call per run of equal facing state. Sets culling and front face;
     // the caller sets program, framebuffer, textures and blending.
@@ -33,7 +33,7 @@ class GpuScene {
     };
     void add_runs(const Mesh& mesh);
 
-    Way way_;
+    PortSettings settings_;
     Size size_;
     bool two_sided_;  // some vertex has a separate colour for the back
     std::array<std::vector<Run>, 2> runs_;

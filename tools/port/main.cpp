@@ -52,22 +52,25 @@ void check_sampled(const Options& options, const Pack& pack, const std::vector<s
 int run(const Options& options) {
     const Pack pack = read_pack(options.pack);
     const std::vector<std::string> algorithms = chosen(options, pack);
-    Way way = way_with(options.mistakes);
+    PortSettings settings = settings_with(options.mistakes);
     const HeadlessContext context(options.driver, options.threads);
     if (options.samples > 1) {
         check_sampled(options, pack, algorithms);
         const bool is_once = options.interpolation != "sample";
         set_samples(options.samples, options.sample, is_once ? Shading::pixel : Shading::sample);
-        way.interpolation = !is_once                            ? "smooth sample"
-                            : options.interpolation == "centre" ? "smooth"
-                                                                : "smooth centroid";
+        settings.interpolation = !is_once                            ? "smooth sample"
+                                 : options.interpolation == "centre" ? "smooth"
+                                                                     : "smooth centroid";
     }
-    set_window(pack.size, way, pack.zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
-    const GpuScene scene(pack.mesh, pack.size, way);
+    set_window(pack.size, settings, pack.zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
+    const GpuScene scene(pack.mesh, pack.size, settings);
     std::vector<Candidate> candidates;
     for (const std::string& name : algorithms) {
-        const JobInput input{
-            .scene = scene, .size = pack.size, .formats = pack.formats, .background = pack.background, .way = way};
+        const JobInput input{.scene = scene,
+                             .size = pack.size,
+                             .formats = pack.formats,
+                             .background = pack.background,
+                             .settings = settings};
         Candidate& candidate = candidates.emplace_back(Candidate{name, {}, {}});
         const int passes =
             make_job(name, input)

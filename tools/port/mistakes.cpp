@@ -2,7 +2,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "tools/port/way.h"
+#include "tools/port/port_settings.h"
 
 namespace strata::port {
 
@@ -11,108 +11,110 @@ namespace {
 const std::vector<Mistake> all{
     // Vertices and the frame
     {"flipped_rows", "front_to_back", "no glClipControl: row 0 of memory is the bottom",
-     [](Way& w) { w.origin = GL_LOWER_LEFT; }},
+     [](PortSettings& w) { w.origin = GL_LOWER_LEFT; }},
     {"other_clip_range", "front_to_back",
      "glClipControl for the other range of clip depths than the matrices are made for",
-     [](Way& w) { w.other_clip_depth = true; }},
+     [](PortSettings& w) { w.other_clip_depth = true; }},
     {"half_pixel", "front_to_back", "positions moved by half a pixel, as Direct3D 9 wanted it",
-     [](Way& w) { w.shift_px = 0.5f; }},
+     [](PortSettings& w) { w.shift_px = 0.5f; }},
     {"scissor_left_on", "front_to_back", "the scissor rectangle of an earlier pass is still on",
-     [](Way& w) { w.scissored = true; }},
+     [](PortSettings& w) { w.scissored = true; }},
     {"culling_left_on", "front_to_back", "GL_CULL_FACE is still on for surfaces with two sides",
-     [](Way& w) { w.culling = Culling::always_back; }},
+     [](PortSettings& w) { w.culling = Culling::always_back; }},
     {"front_culled", "dual", "the front faces are culled, everywhere",
-     [](Way& w) { w.culling = Culling::always_front; }},
+     [](PortSettings& w) { w.culling = Culling::always_front; }},
     {"last_triangle_lost", "front_to_back", "the count of indices of each draw call is short by three",
-     [](Way& w) { w.indices_left_out = 3; }},
+     [](PortSettings& w) { w.indices_left_out = 3; }},
     {"colors_in_bytes", "front_to_back", "vertex colours are uploaded as normalised bytes",
-     [](Way& w) { w.colors_in_bytes = true; }},
+     [](PortSettings& w) { w.colors_in_bytes = true; }},
     {"flat_colors", "front_to_back", "colours are `flat`: those of the last corner of each triangle",
-     [](Way& w) { w.interpolation = "flat"; }},
+     [](PortSettings& w) { w.interpolation = "flat"; }},
     {"no_perspective", "front_to_back", "colours are `noperspective`",
-     [](Way& w) { w.interpolation = "noperspective"; }},
+     [](PortSettings& w) { w.interpolation = "noperspective"; }},
     {"sides_exchanged", "front_to_back", "the colours of front and back are exchanged",
-     [](Way& w) { w.is_front = "!gl_FrontFacing"; }},
+     [](PortSettings& w) { w.is_front = "!gl_FrontFacing"; }},
     {"all_samplers_at_unit_0", "dual", "no glUniform1i: every sampler reads texture unit 0",
-     [](Way& w) { w.units_set = false; }},
+     [](PortSettings& w) { w.units_set = false; }},
     {"neighbour_texel", "front_to_back",
      "half a pixel is added to gl_FragCoord, which has it already: the depth of the neighbour is read",
-     [](Way& w) { w.texel = "ivec2(gl_FragCoord.xy + 0.5)"; }},
+     [](PortSettings& w) { w.texel = "ivec2(gl_FragCoord.xy + 0.5)"; }},
     // Depth
     {"less_equal", "front_to_back", "GL_LEQUAL for GL_LESS: the last of equal depths wins",
-     [](Way& w) { w.depth_func = GL_LEQUAL; }},
+     [](PortSettings& w) { w.depth_func = GL_LEQUAL; }},
     {"nearest_again", "front_to_back", "a fragment at the peeled depth is kept: every pass finds the same layer",
-     [](Way& w) { w.behind = "z >= peeled"; }},
+     [](PortSettings& w) { w.behind = "z >= peeled"; }},
     {"depth_epsilon", "front_to_back", "0.001 is added to the peeled depth against \"z-fighting\"",
-     [](Way& w) { w.behind = "z > peeled + 0.001"; }},
-    {"depth_16", "front_to_back", "the depth buffers have 16 bits", [](Way& w) { w.depth = &d16; }},
-    {"half_min_max", "dual", "the min-max depths are half floats", [](Way& w) { w.min_max = rg16f; }},
-    {"min_max_cleared_to_0", "dual", "the min-max depths are cleared to (0, 0)", [](Way& w) { w.empty_min_max = {}; }},
+     [](PortSettings& w) { w.behind = "z > peeled + 0.001"; }},
+    {"depth_16", "front_to_back", "the depth buffers have 16 bits", [](PortSettings& w) { w.depth = &d16; }},
+    {"half_min_max", "dual", "the min-max depths are half floats", [](PortSettings& w) { w.min_max = rg16f; }},
+    {"min_max_cleared_to_0", "dual", "the min-max depths are cleared to (0, 0)",
+     [](PortSettings& w) { w.empty_min_max = {}; }},
     {"opaque_ignored", "front_to_back", "no test against the opaque depth: hidden surfaces shine through",
-     [](Way& w) { w.opaque_tested = false; }},
+     [](PortSettings& w) { w.opaque_tested = false; }},
     // Colours and blending
     {"straight_layers", "front_to_back", "layers are not multiplied with their alpha",
-     [](Way& w) { w.premultiplied = "c"; }},
+     [](PortSettings& w) { w.premultiplied = "c"; }},
     {"alpha_twice", "front_to_back", "layers are multiplied with their alpha in the shader and once more",
-     [](Way& w) { w.premultiplied = "vec4(c.rgb * c.a * c.a, c.a)"; }},
+     [](PortSettings& w) { w.premultiplied = "vec4(c.rgb * c.a * c.a, c.a)"; }},
     {"back_premultiplied", "dual", "dual's far layer is premultiplied and then blended with GL_SRC_ALPHA",
-     [](Way& w) { w.back_layer = "vec4(color.rgb * color.a, color.a)"; }},
+     [](PortSettings& w) { w.back_layer = "vec4(color.rgb * color.a, color.a)"; }},
     {"cleared_to_opaque", "front_to_back", "the accumulated alpha is cleared to 0, as colours are",
-     [](Way& w) { w.transmittance_start = 0; }},
+     [](PortSettings& w) { w.transmittance_start = 0; }},
     {"under_not_separate", "front_to_back", "glBlendFunc(GL_DST_ALPHA, GL_ONE) for alpha as well",
-     [](Way& w) {
+     [](PortSettings& w) {
          w.under = {GL_DST_ALPHA, GL_ONE, GL_DST_ALPHA, GL_ONE};
      }},
     {"over_for_under", "front_to_back", "layers from the nearest on are blended with OVER's factors",
-     [](Way& w) {
+     [](PortSettings& w) {
          w.under = {GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA};
      }},
     {"factors_exchanged", "dual", "the factors of OVER are exchanged",
-     [](Way& w) {
+     [](PortSettings& w) {
          w.over = {GL_ONE_MINUS_SRC_ALPHA, GL_SRC_ALPHA};
      }},
     {"front_discarded", "dual", "fragments between the ends are discarded: the front colour of the pixel is lost",
-     [](Way& w) { w.at_neither_end = "discard"; }},
-    {"min_for_max", "dual", "GL_MIN for GL_MAX", [](Way& w) { w.min_max_equation = GL_MIN; }},
+     [](PortSettings& w) { w.at_neither_end = "discard"; }},
+    {"min_for_max", "dual", "GL_MIN for GL_MAX", [](PortSettings& w) { w.min_max_equation = GL_MIN; }},
     {"alpha_squared", "weighted_average", "sums of colours times alpha squared",
-     [](Way& w) { w.premultiplied = "vec4(c.rgb * c.a, c.a) * c.a"; }},
+     [](PortSettings& w) { w.premultiplied = "vec4(c.rgb * c.a, c.a) * c.a"; }},
     {"sums_in_bytes", "weighted_average", "the sums are kept in 8 bits, and saturate",
-     [](Way& w) { w.sums[0] = &rgba8; }},
+     [](PortSettings& w) { w.sums[0] = &rgba8; }},
     {"count_in_a_byte", "weighted_average", "fragments are counted in 8 normalised bits, and saturate at 1",
-     [](Way& w) { w.sums[1] = &r8; }},
+     [](PortSettings& w) { w.sums[1] = &r8; }},
     {"background_lost", "front_to_back", "the result stands over black, whatever was drawn before",
-     [](Way& w) { w.background_used = false; }},
+     [](PortSettings& w) { w.background_used = false; }},
     {"srgb_twice", "front_to_back", "the finished picture is encoded as sRGB once more",
-     [](Way& w) { w.encoded_again = true; }},
-    {"red_for_blue", "front_to_back", "the picture is read back as GL_BGRA", [](Way& w) { w.channel_order = GL_BGRA; }},
+     [](PortSettings& w) { w.encoded_again = true; }},
+    {"red_for_blue", "front_to_back", "the picture is read back as GL_BGRA",
+     [](PortSettings& w) { w.channel_order = GL_BGRA; }},
     // Passes
     {"last_layer_lost", "front_to_back", "the loop ends before the last layer is composited",
-     [](Way& w) { w.passes_left_out = 1; }},
+     [](PortSettings& w) { w.passes_left_out = 1; }},
     {"query_above_1", "front_to_back", "the peel ends where a pass draws one sample",
-     [](Way& w) { w.query_limit = 1; }},
-    {"not_swapped", "dual", "the two min-max targets do not take turns", [](Way& w) { w.swaps = false; }},
+     [](PortSettings& w) { w.query_limit = 1; }},
+    {"not_swapped", "dual", "the two min-max targets do not take turns", [](PortSettings& w) { w.swaps = false; }},
     {"stencil_wraps", "coherent_stencil", "GL_INCR_WRAP for GL_INCR",
-     [](Way& w) { w.stencil_increment = GL_INCR_WRAP; }},
+     [](PortSettings& w) { w.stencil_increment = GL_INCR_WRAP; }},
     {"stencil_cleared", "coherent_stencil", "the stencil is cleared before the second pass, as before every other one",
-     [](Way& w) { w.stencil_kept = false; }},
+     [](PortSettings& w) { w.stencil_kept = false; }},
     {"shadow_sense", "depth_units", "GL_LESS for GL_GREATER in the shadow compare",
-     [](Way& w) { w.shadow_compare = GL_LESS; }},
+     [](PortSettings& w) { w.shadow_compare = GL_LESS; }},
 };
 
 }  // namespace
 
 const std::vector<Mistake>& mistakes() { return all; }
 
-Way way_with(const std::string& names) {
-    Way way;
+PortSettings settings_with(const std::string& names) {
+    PortSettings settings;
     std::istringstream words(names);
     for (std::string word; std::getline(words, word, ',');) {
         const auto found = std::ranges::find_if(all, [&](const Mistake& m) { return word == m.name; });
         if (found == all.end())
             throw std::invalid_argument("--mistake: expected a name that --mistakes lists, found '" + word + "'");
-        found->make(way);
+        found->make(settings);
     }
-    return way;
+    return settings;
 }
 
 }  // namespace strata::port

@@ -23,7 +23,7 @@ std::map<std::string, std::string> files_of_folder(const std::string& path) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         const std::string name = entry.path().lexically_relative(folder).generic_string();
         if (!entry.is_regular_file() ||
-            scenes::inside_folder(folder, name).found != scenes::InsideFolder::Found::inside)
+            scenes::inside_folder(folder, name).status != scenes::InsideFolder::PathStatus::inside)
             continue;
         files[name] = scenes::read_text_file(entry.path().string(), left);
         left -= files[name].size();

@@ -74,7 +74,7 @@ std::size_t place_count(const Answer& answer) {
 
 }  // namespace
 
-std::vector<bool> equal_places(const Answer& a, const Answer& b) {
+std::vector<bool> equal_values(const Answer& a, const Answer& b) {
     std::vector<bool> places;
     places.reserve(place_count(a));
     add_places(a.color, b.color, places);
@@ -107,7 +107,7 @@ Nearness nearness(const Answer& a, const Answer& b) {
 
 Comparison::Comparison(const ProbePack& pack, const std::vector<Item>& items, YDirection y) : y_{y} {
     const auto says = pack.device.find("has_d32f");
-    says_float_depth_ = says != pack.device.end() && says->is_boolean() && says->get<bool>();
+    reports_float_depth_ = says != pack.device.end() && says->is_boolean() && says->get<bool>();
     const auto found = pack.answers.find(y);
     if (found == pack.answers.end()) return;
     for (const Item& item : items) {
@@ -134,7 +134,7 @@ Reply Comparison::drawn(const DeviceProfile& profile, std::size_t number) const 
 std::vector<bool> Comparison::equal(const Reply& drawn, std::size_t number) const {
     const Answer& own = *items_[number].answer;
     if (!drawn.answer) return std::vector<bool>(place_count(own), false);
-    return equal_places(own, *drawn.answer);
+    return equal_values(own, *drawn.answer);
 }
 
 Tally Comparison::tally(const DeviceProfile& profile, const std::vector<std::size_t>& numbers) const {

@@ -23,7 +23,7 @@ struct Tally {
 };
 
 // Every pixel's colour, then every depth: true if the two answers have the same bits.
-[[nodiscard]] std::vector<bool> equal_places(const Answer& a, const Answer& b);
+[[nodiscard]] std::vector<bool> equal_values(const Answer& a, const Answer& b);
 
 // The numbers of pixels of two answers that differ. A pixel is covered if its depth is not the cleared one, or, without
 // a depth buffer, its colour.
@@ -66,7 +66,7 @@ class Comparison {
     [[nodiscard]] std::vector<bool> equal(const Reply& drawn, std::size_t number) const;
     [[nodiscard]] Tally tally(const DeviceProfile& profile, const std::vector<std::size_t>& numbers) const;
     // True if the driver reports float depth buffers.
-    [[nodiscard]] bool says_float_depth() const noexcept { return says_float_depth_; }
+    [[nodiscard]] bool reports_float_depth() const noexcept { return reports_float_depth_; }
     [[nodiscard]] YDirection orientation() const noexcept { return y_; }
 
   private:
@@ -76,7 +76,7 @@ class Comparison {
     };
     std::vector<Answered> items_{};
     YDirection y_;
-    bool says_float_depth_ = false;
+    bool reports_float_depth_ = false;
 };
 
 }  // namespace strata::probe

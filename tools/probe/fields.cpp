@@ -121,7 +121,7 @@ bool can_change(std::string_view key, const Item& item) {
     return true;
 }
 
-bool is_said(std::string_view key) {
+bool is_reported(std::string_view key) {
     return key.starts_with("has_") || key.starts_with("max_") || key == "min_samples" || key == "origin" ||
            key == "raster.equal_colors";
 }
@@ -132,7 +132,7 @@ std::vector<const ProfileField*> probed_fields() {
     std::vector<const ProfileField*> fields;
     for (const ProfileField& f : pipeline::profile_fields()) {
         const bool is_unprobed = std::ranges::find(unprobed, f.key, &Unprobed::key) != std::end(unprobed);
-        if (!is_said(f.key) && !is_unprobed) fields.push_back(&f);
+        if (!is_reported(f.key) && !is_unprobed) fields.push_back(&f);
     }
     return fields;
 }

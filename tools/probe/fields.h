@@ -28,7 +28,7 @@ using pipeline::ProfileField;
 
 // Fields that no picture determines: features and limits, which the driver reports; the origin, which the client states
 // (--y); and whether equal colours are a uniform of a program, which the kit's are not.
-[[nodiscard]] bool is_said(std::string_view key);
+[[nodiscard]] bool is_reported(std::string_view key);
 
 // Other fields that no scene of the kit determines, with the reason.
 struct Unprobed {

@@ -135,7 +135,7 @@ class Evidence {
         const Reply drawn = device_.drawn(profile, item);
         Hypothesis result{.equal = device_.equal(drawn, item)};
         if (drawn.answer && drawn_[item].answer)
-            result.as_found = equal_places(*drawn.answer, *drawn_[item].answer);
+            result.as_found = equal_values(*drawn.answer, *drawn_[item].answer);
         else
             result.as_found.assign(result.equal.size(), false);
         return result;
@@ -187,7 +187,7 @@ std::vector<FieldFinding> findings(Evidence& evidence, const ProbePack& pack, co
                        .state = FieldState::unprobed,
                        .reason = std::string{f.reason}});
     for (const ProfileField& f : pipeline::profile_fields()) {
-        if (!is_said(f.key)) continue;
+        if (!is_reported(f.key)) continue;
         const bool is_feature = f.key.starts_with("has_") || f.key.starts_with("max_");
         const bool is_stated = !is_feature || pack.device.contains(std::string{f.key});
         all.push_back({.key = std::string{f.key},

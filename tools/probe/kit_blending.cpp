@@ -45,11 +45,11 @@ Item crossed_item(Format format, const BlendTerm& term, const std::vector<float>
 // parts of the sum than rounding once. Some boxes cross borders of tiles of 64 pixels.
 Item overlaps_item(Format format, float step, const std::string& name) {
     Item item{.name = name, .decides = {"blend_storage"}, .width = 144, .height = 80, .color = format};
-    Dice dice{71};
+    RandomGenerator random{71};
     Draw sums{.blend = BlendTerm{BlendEquation::add, BlendFactor::one, BlendFactor::one}};
     for (int k = 0; k < 60; ++k) {
-        const auto x = static_cast<float>(dice.below(120)), y = static_cast<float>(dice.below(60));
-        const float value = step * static_cast<float>(dice.below(9)) / 3.0f;
+        const auto x = static_cast<float>(random.below(120)), y = static_cast<float>(random.below(60));
+        const float value = step * static_cast<float>(random.below(9)) / 3.0f;
         add_box(item, sums, x, y, x + 24, y + 20, {value, 0.5f * value, value, 2.0f * value});
     }
     item.draws = {sums};
@@ -84,12 +84,12 @@ std::vector<float> small_values() {
 // Alphas slightly off the reference of the test, by less than 8 bits can represent.
 Item alpha_item(Format format, const std::string& name) {
     Item item{.name = name, .decides = {"alpha_test"}, .color = format};
-    Dice dice{70};
+    RandomGenerator random{70};
     for (int y = 0; y < item.height; y += 4) {
-        const float reference = dice.between(0.1f, 0.9f);
+        const float reference = random.between(0.1f, 0.9f);
         Draw draw{.alpha_above = reference};
         for (int x = 0; x < item.width; x += 4) {
-            const float alpha = reference + 0x1p-10f * static_cast<float>(dice.below(9) - 4);
+            const float alpha = reference + 0x1p-10f * static_cast<float>(random.below(9) - 4);
             const auto left = static_cast<float>(x), top = static_cast<float>(y);
             add_box(item, draw, left, top, left + 4, top + 4, {0.5f, 0.25f, 0.75f, alpha});
         }

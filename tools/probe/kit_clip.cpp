@@ -21,20 +21,20 @@ Item beyond_item(Beyond beyond, DepthFormat format, std::uint64_t seed, const st
     Item item = plain_item(name, clip_fields);
     item.depth = format;
     Draw draw;
-    Dice dice{seed};
+    RandomGenerator random{seed};
     for (int i = 0; i < triangles; ++i) {
-        std::array<Place, 3> p;
+        std::array<FramePosition, 3> p;
         for (std::size_t k = 0; k < 3; ++k) {
-            const bool leaves = k == 0 || (beyond == Beyond::all && dice.below(2) == 0);
-            p[k] = random_place(dice, item, leaves && beyond != Beyond::near_far ? 90.0f : 0.0f);
+            const bool leaves = k == 0 || (beyond == Beyond::all && random.below(2) == 0);
+            p[k] = random_position(random, item, leaves && beyond != Beyond::near_far ? 90.0f : 0.0f);
             if (leaves && (beyond == Beyond::near_far || beyond == Beyond::all))
-                p[k].z = dice.between(1.0f, 3.0f) * (dice.below(2) == 0 ? 1.0f : -1.0f);
-            p[k].w = dice.between(0.5f, 4.0f);
+                p[k].z = random.between(1.0f, 3.0f) * (random.below(2) == 0 ? 1.0f : -1.0f);
+            p[k].w = random.between(0.5f, 4.0f);
         }
         // The corner is given in clip space: w < 0, with x and y of its magnitude.
         const Color color = code_color(i);
         add_triangle(item, draw, p, {color, color, color});
-        if (beyond == Beyond::eye) draw.corners[draw.corners.size() - 3].w = -dice.between(0.1f, 2.0f);
+        if (beyond == Beyond::eye) draw.corners[draw.corners.size() - 3].w = -random.between(0.1f, 2.0f);
     }
     item.draws = {draw};
     return item;
@@ -57,14 +57,14 @@ Item skimming_item(DepthFormat format, std::uint64_t seed, const std::string& na
                                   "raster.sum_bits", "raster.reciprocal_bits", "raster.reciprocal_deficit"});
     item.depth = format;
     Draw draw;
-    Dice dice{seed};
+    RandomGenerator random{seed};
     const float code = format == DepthFormat::d16 ? 0x1p-15f : 0x1p-23f;
     for (int i = 0; i < 40; ++i) {
-        std::array<Place, 3> p;
-        const float plane = dice.below(2) == 0 ? -1.0f : 1.0f;
-        for (Place& place : p) {
-            place = random_place(dice, item, 0.0f);
-            place.z = plane + code * dice.between(-4, 4);
+        std::array<FramePosition, 3> p;
+        const float plane = random.below(2) == 0 ? -1.0f : 1.0f;
+        for (FramePosition& position : p) {
+            position = random_position(random, item, 0.0f);
+            position.z = plane + code * random.between(-4, 4);
         }
         const Color color = code_color(i);
         add_triangle(item, draw, p, {color, color, color});
@@ -82,11 +82,11 @@ Item guard_item(DepthFormat format, const std::string& name) {
     item.height = static_cast<int>(all.size());
     item.depth = format;
     Draw draw;
-    Dice dice{53};
+    RandomGenerator random{53};
     for (std::size_t row = 0; row < all.size(); ++row) {
         const float reach = static_cast<float>(all[row]) + 0.75f, top = static_cast<float>(row);
-        std::array<Place, 3> p{Place{-reach, top}, {reach, top}, {reach, top + 2.0f}};
-        for (Place& place : p) place.z = dice.between(-0.9f, 0.9f);
+        std::array<FramePosition, 3> p{FramePosition{-reach, top}, {reach, top}, {reach, top + 2.0f}};
+        for (FramePosition& position : p) position.z = random.between(-0.9f, 0.9f);
         const Color color = code_color(static_cast<int>(row));
         add_triangle(item, draw, p, {color, color, color});
     }

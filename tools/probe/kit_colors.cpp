@@ -27,14 +27,14 @@ Item slopes_item(Format format, bool in_perspective, std::uint64_t seed, const s
                  const Frame& frame = {}) {
     Item item{.name = name, .decides = color_fields, .width = frame.width, .height = frame.height, .color = format};
     Draw draw;
-    Dice dice{seed};
+    RandomGenerator random{seed};
     for (int i = 0; i < frame.triangles; ++i) {
-        std::array<Place, 3> p;
+        std::array<FramePosition, 3> p;
         std::array<Color, 3> c;
         for (std::size_t k = 0; k < 3; ++k) {
-            p[k] = random_place(dice, item, 0.0f);
-            if (in_perspective) p[k].w = dice.between(0.5f, 4.0f);
-            c[k] = random_color(dice);
+            p[k] = random_position(random, item, 0.0f);
+            if (in_perspective) p[k].w = random.between(0.5f, 4.0f);
+            c[k] = random_color(random);
         }
         add_triangle(item, draw, p, c);
     }
@@ -47,16 +47,16 @@ Item slopes_item(Format format, bool in_perspective, std::uint64_t seed, const s
 Item even_weights_item(bool in_perspective, std::uint64_t seed, const std::string& name) {
     Item item{.name = name, .decides = color_fields, .width = 128, .height = 128};
     Draw draw;
-    Dice dice{seed};
+    RandomGenerator random{seed};
     for (int i = 0; i < 160; ++i) {
-        std::array<Place, 3> p;
+        std::array<FramePosition, 3> p;
         std::array<Color, 3> c;
-        const int x = dice.below(96), y = dice.below(96);
+        const int x = random.below(96), y = random.below(96);
         for (std::size_t k = 0; k < 3; ++k) {
-            p[k].x = static_cast<float>(x + dice.below(32)) + 0.5f;
-            p[k].y = static_cast<float>(y + dice.below(32)) + 0.5f;
-            if (in_perspective) p[k].w = static_cast<float>(1 << dice.below(3));
-            c[k] = random_color(dice);
+            p[k].x = static_cast<float>(x + random.below(32)) + 0.5f;
+            p[k].y = static_cast<float>(y + random.below(32)) + 0.5f;
+            if (in_perspective) p[k].w = static_cast<float>(1 << random.below(3));
+            c[k] = random_color(random);
         }
         add_triangle(item, draw, p, c);
     }
@@ -68,12 +68,12 @@ Item even_weights_item(bool in_perspective, std::uint64_t seed, const std::strin
 Item split_weights_item(std::uint64_t seed, const std::string& name) {
     Item item{.name = name, .decides = color_fields, .width = 128, .height = 128};
     Draw draw;
-    Dice dice{seed};
+    RandomGenerator random{seed};
     for (int top = 0; top < item.height; top += 8)
         for (int left = 0; left < item.width; left += 8) {
-            const std::optional<SplitTriangle> found = split_triangle(dice);
+            const std::optional<SplitTriangle> found = split_triangle(random);
             if (!found) continue;
-            std::array<Place, 3> p;
+            std::array<FramePosition, 3> p;
             std::array<Color, 3> c;
             // An offset that every snapping rule rounds away, for either direction of rows in every second cell.
             constexpr float hair = 0x1p-14f;
@@ -97,20 +97,20 @@ Item slivers_item(std::uint64_t seed, const std::string& name) {
     item.decides.emplace_back("raster.subpixel_bits");
     item.decides.emplace_back("raster.snap");
     Draw draw;
-    Dice dice{seed};
+    RandomGenerator random{seed};
     for (int y = 0; y < item.height; ++y)
         for (int x = 0; x < item.width; ++x) {
-            std::array<Place, 3> p;
+            std::array<FramePosition, 3> p;
             std::array<Color, 3> c;
-            const bool lies = dice.below(2) == 0;
+            const bool lies = random.below(2) == 0;
             for (std::size_t k = 0; k < 3; ++k) {
                 // Around the centre, in a strip that is thin in one direction.
-                const float thin = 1.0f / static_cast<float>(4 << dice.below(7));
-                const float along = dice.between(-1.0f, 1.0f), across = dice.between(-thin, thin);
+                const float thin = 1.0f / static_cast<float>(4 << random.below(7));
+                const float along = random.between(-1.0f, 1.0f), across = random.between(-thin, thin);
                 p[k].x = static_cast<float>(x) + 0.5f + (lies ? along : across);
                 p[k].y = static_cast<float>(y) + 0.5f + (lies ? across : along);
-                p[k].w = dice.between(0.5f, 4.0f);
-                c[k] = random_color(dice);
+                p[k].w = random.between(0.5f, 4.0f);
+                c[k] = random_color(random);
             }
             add_triangle(item, draw, p, c);
         }
@@ -122,16 +122,16 @@ Item slivers_item(std::uint64_t seed, const std::string& name) {
 Item codes_item() {
     Item item{.name = "color.codes", .decides = {"unorm_rounding", "raster.color", "raster.vertex_color_bits"}};
     Draw draw;
-    Dice dice{62};
+    RandomGenerator random{62};
     for (int y = 0; y < item.height; y += 2)
         for (int x = 0; x < item.width; x += 2) {
             Color c;
             for (float& channel : c) {
-                const double half = (dice.below(255) + 0.5) / 255.0;
+                const double half = (random.below(255) + 0.5) / 255.0;
                 channel = static_cast<float>(half);
-                const int ulps = dice.below(5) - 2;
+                const int ulps = random.below(5) - 2;
                 for (int i = 0; i < std::abs(ulps); ++i) channel = std::nextafter(channel, ulps < 0 ? 0.0f : 1.0f);
-                if (dice.below(4) == 0) channel = static_cast<float>(dice.below(11)) / 10.0f;
+                if (random.below(4) == 0) channel = static_cast<float>(random.below(11)) / 10.0f;
             }
             const auto left = static_cast<float>(x), top = static_cast<float>(y);
             add_box(item, draw, left, top, left + 2, top + 2, c);
@@ -144,14 +144,14 @@ Item codes_item() {
 Item halves_item() {
     Item item{.name = "color.halves", .decides = {"half_rounding"}, .color = Format::rgba16f};
     Draw draw;
-    Dice dice{63};
+    RandomGenerator random{63};
     for (int y = 0; y < item.height; y += 2)
         for (int x = 0; x < item.width; x += 2) {
             Color c;
             for (float& channel : c) {
-                const double mantissa = 1.0 + dice.below(2048) / 2048.0 + 0x1p-20 * (dice.below(3) - 1);
-                const double scaled = std::ldexp(mantissa, dice.below(34) - 18);
-                channel = static_cast<float>(dice.below(2) == 0 ? scaled : -scaled);
+                const double mantissa = 1.0 + random.below(2048) / 2048.0 + 0x1p-20 * (random.below(3) - 1);
+                const double scaled = std::ldexp(mantissa, random.below(34) - 18);
+                channel = static_cast<float>(random.below(2) == 0 ? scaled : -scaled);
             }
             const auto left = static_cast<float>(x), top = static_cast<float>(y);
             add_box(item, draw, left, top, left + 2, top + 2, c);

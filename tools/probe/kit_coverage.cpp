@@ -13,24 +13,24 @@ const std::vector<std::string> coverage_fields{"raster.subpixel_bits", "raster.s
 
 // The distance of an edge from a pixel's centre: slightly on either side of every position where rounding to 4, 8 or 12
 // bits, truncated or to nearest, decides the coverage; and 0. The offset is 2^-16 pixel.
-float near_miss(Dice& dice) {
+float near_miss(RandomGenerator& random) {
     constexpr int bits[]{4, 8, 12};
-    const int n = bits[dice.below(3)];
+    const int n = bits[random.below(3)];
     const float step = 1.0f / static_cast<float>(1 << n);
-    const float threshold = step * 0.5f * static_cast<float>(dice.below(5) - 2);
-    return threshold + 0x1p-16f * static_cast<float>(dice.below(3) - 1);
+    const float threshold = step * 0.5f * static_cast<float>(random.below(5) - 2);
+    return threshold + 0x1p-16f * static_cast<float>(random.below(3) - 1);
 }
 
 // Cells of 2 x 2 pixels, whose boxes end near the centres.
 Item snap_item(std::uint64_t seed, const std::string& name) {
     Item item{.name = name, .decides = coverage_fields};
     Draw draw;
-    Dice dice{seed};
+    RandomGenerator random{seed};
     for (int y = 0; y < item.height; y += 2)
         for (int x = 0; x < item.width; x += 2) {
             const float left = static_cast<float>(x) + 0.5f, top = static_cast<float>(y) + 0.5f;
-            const float x0 = left + near_miss(dice), y0 = top + near_miss(dice);
-            const float x1 = left + 1.0f + near_miss(dice), y1 = top + 1.0f + near_miss(dice);
+            const float x0 = left + near_miss(random), y0 = top + near_miss(random);
+            const float x1 = left + 1.0f + near_miss(random), y1 = top + 1.0f + near_miss(random);
             add_box(item, draw, x0, y0, x1, y1, white);
         }
     item.draws = {draw};
@@ -41,13 +41,13 @@ Item snap_item(std::uint64_t seed, const std::string& name) {
 Item ties_item() {
     Item item{.name = "coverage.ties", .decides = {"raster.tie_rule", "raster.coverage"}};
     Draw draw;
-    Dice dice{3};
+    RandomGenerator random{3};
     for (int y = 0; y < item.height; y += 8)
         for (int x = 0; x < item.width; x += 8) {
-            std::array<Place, 3> p;
-            for (Place& place : p) {
-                place.x = static_cast<float>(x) + 0.5f * static_cast<float>(dice.below(16));
-                place.y = static_cast<float>(y) + 0.5f * static_cast<float>(dice.below(16));
+            std::array<FramePosition, 3> p;
+            for (FramePosition& position : p) {
+                position.x = static_cast<float>(x) + 0.5f * static_cast<float>(random.below(16));
+                position.y = static_cast<float>(y) + 0.5f * static_cast<float>(random.below(16));
             }
             add_triangle(item, draw, p, {white, white, white});
         }
@@ -59,13 +59,13 @@ Item ties_item() {
 Item random_item(int count, float size, std::uint64_t seed, const std::string& name) {
     Item item{.name = name, .decides = coverage_fields};
     Draw draw;
-    Dice dice{seed};
+    RandomGenerator random{seed};
     for (int i = 0; i < count; ++i) {
-        const float x = dice.between(0, 64), y = dice.between(0, 64);
-        std::array<Place, 3> p;
-        for (Place& place : p) {
-            place.x = std::clamp(x + dice.between(-size, size), 0.0f, 64.0f);
-            place.y = std::clamp(y + dice.between(-size, size), 0.0f, 64.0f);
+        const float x = random.between(0, 64), y = random.between(0, 64);
+        std::array<FramePosition, 3> p;
+        for (FramePosition& position : p) {
+            position.x = std::clamp(x + random.between(-size, size), 0.0f, 64.0f);
+            position.y = std::clamp(y + random.between(-size, size), 0.0f, 64.0f);
         }
         const Color color = code_color(i);
         add_triangle(item, draw, p, {color, color, color});

@@ -15,12 +15,12 @@ const std::vector<std::string> depth_fields{"raster.depth_path",      "raster.pl
                                             "raster.sum_bits",        "raster.interpolant_bits",
                                             "raster.divide",          "depth24"};
 
-void add_slopes(const Item& item, Draw& draw, Dice& dice, int count) {
+void add_slopes(const Item& item, Draw& draw, RandomGenerator& random, int count) {
     for (int i = 0; i < count; ++i) {
-        std::array<Place, 3> p;
-        for (Place& place : p) {
-            place = random_place(dice, item, 0.0f);
-            place.w = dice.between(0.5f, 4.0f);
+        std::array<FramePosition, 3> p;
+        for (FramePosition& position : p) {
+            position = random_position(random, item, 0.0f);
+            position.w = random.between(0.5f, 4.0f);
         }
         const Color color = code_color(i);
         add_triangle(item, draw, p, {color, color, color});
@@ -32,8 +32,8 @@ Item slopes_item(DepthFormat format, int count, std::uint64_t seed, const std::s
     Item item{.name = name, .decides = depth_fields, .width = 61, .height = 47};
     item.depth = format;
     Draw draw;
-    Dice dice{seed};
-    add_slopes(item, draw, dice, count);
+    RandomGenerator random{seed};
+    add_slopes(item, draw, random, count);
     item.draws = {draw};
     return item;
 }
@@ -43,15 +43,16 @@ Item split_reciprocals_item(std::uint64_t seed, const std::string& name) {
     Item item{.name = name, .decides = depth_fields, .width = 128, .height = 128};
     item.depth = DepthFormat::d24;
     Draw draw;
-    Dice dice{seed};
+    RandomGenerator random{seed};
     const std::vector<TwoReciprocals> pairs = neighbouring_reciprocals();
     for (int i = 0; i < 256; ++i) {
-        const std::optional<SplitDepths> found = split_depths(dice, pairs[static_cast<std::size_t>(i) % pairs.size()]);
+        const std::optional<SplitDepths> found =
+            split_depths(random, pairs[static_cast<std::size_t>(i) % pairs.size()]);
         if (!found) continue;
         const auto left = static_cast<float>(i % 16 * 8), top = static_cast<float>(i / 16 * 8);
         // An offset that every snapping rule rounds away, for either direction of rows in every second cell.
         constexpr float hair = 0x1p-14f;
-        std::array<Place, 3> p;
+        std::array<FramePosition, 3> p;
         for (std::size_t k = 0; k < 3; ++k)
             p[k] = {left + static_cast<float>(found->x[k]) / 16.0f + hair,
                     top + static_cast<float>(found->y[k]) / 16.0f + (i % 2 == 0 ? hair : -hair), found->z[k], 1.0f};
@@ -67,13 +68,13 @@ Item codes_item(DepthFormat format, const std::string& name) {
     Item item{.name = name, .decides = {"raster.depth_rounding", "raster.depth_path", "raster.window_z", "depth24"}};
     item.depth = format;
     Draw draw;
-    Dice dice{22};
+    RandomGenerator random{22};
     const int bits = format == DepthFormat::d16 ? 16 : 24;
     const double greatest = (1 << bits) - 1;
     for (int y = 0; y < item.height; y += 2)
         for (int x = 0; x < item.width; x += 2) {
-            const auto code = static_cast<double>(dice.next() >> (32 - bits));
-            const double part = 0.25 * dice.below(4), hair = 0x1p-12 * (dice.below(3) - 1);
+            const auto code = static_cast<double>(random.next() >> (32 - bits));
+            const double part = 0.25 * random.below(4), hair = 0x1p-12 * (random.below(3) - 1);
             const double depth = (code + part + hair) / greatest;
             const auto left = static_cast<float>(x), top = static_cast<float>(y);
             add_box(item, draw, left, top, left + 2, top + 2, white, static_cast<float>(depth * 2.0 - 1.0));
@@ -85,12 +86,12 @@ Item codes_item(DepthFormat format, const std::string& name) {
 Item offset_item(DepthFormat format, const std::string& name) {
     Item item{.name = name, .decides = {"raster.offset_unit", "raster.offset_rule"}, .width = 61, .height = 47};
     item.depth = format;
-    Dice dice{31};
+    RandomGenerator random{31};
     constexpr rasterizer::PolygonOffset offsets[]{{true, 0, 1},      {true, 0, -3},   {true, 1.5f, 0},
                                                   {true, -2.25f, 2}, {true, 0, 1000}, {true, 1, 1}};
     for (const rasterizer::PolygonOffset& offset : offsets) {
         Draw draw{.offset = offset};
-        add_slopes(item, draw, dice, 3);
+        add_slopes(item, draw, random, 3);
         item.draws.push_back(draw);
     }
     return item;
@@ -100,12 +101,12 @@ Item offset_item(DepthFormat format, const std::string& name) {
 Item offset_flat_item(DepthFormat format, const std::string& name) {
     Item item{.name = name, .decides = {"raster.offset_unit", "raster.offset_rule"}};
     item.depth = format;
-    Dice dice{32};
+    RandomGenerator random{32};
     for (int y = 0; y < item.height; y += 8) {
         Draw draw{.offset = {true, 0, static_cast<float>(y + 1)}};
         for (int x = 0; x < item.width; x += 8) {
             // Window depths of 2^-1 to 2^-8.
-            const float depth = dice.between(0.5f, 0.9f) / static_cast<float>(1 << (x / 8));
+            const float depth = random.between(0.5f, 0.9f) / static_cast<float>(1 << (x / 8));
             const auto left = static_cast<float>(x), top = static_cast<float>(y);
             add_box(item, draw, left, top, left + 8, top + 8, white, depth * 2.0f - 1.0f);
         }

@@ -44,11 +44,11 @@ WindowTransform transform(const Item& item, const Way& way) {
 }
 
 // Finds clip x and w that the two ways put on different sides of window x `target`; w is 0 if none was found.
-ClipVertex split(Dice& dice, const Item& item, const Way& a, const Way& b, float target) {
+ClipVertex split(RandomGenerator& random, const Item& item, const Way& a, const Way& b, float target) {
     const WindowTransform first = transform(item, a), second = transform(item, b);
     for (int attempt = 0; attempt < 400; ++attempt) {
-        ClipVertex v = corner(item, {target, 0, 0, dice.between(0.5f, 4.0f)}, white);
-        for (int ulps = dice.below(7) - 3; ulps != 0; ulps += ulps < 0 ? 1 : -1)
+        ClipVertex v = corner(item, {target, 0, 0, random.between(0.5f, 4.0f)}, white);
+        for (int ulps = random.below(7) - 3; ulps != 0; ulps += ulps < 0 ? 1 : -1)
             v.x = std::nextafter(v.x, ulps < 0 ? -8.0f : 8.0f);
         if ((first.project(v).x < target) != (second.project(v).x < target)) return v;
     }
@@ -79,7 +79,7 @@ struct Pair {
 Item edges_item(int width, int height, const std::vector<Pair>& pairs, std::uint64_t seed, const std::string& name) {
     Item item{.name = name, .decides = position_fields, .width = width, .height = height};
     Draw draw;
-    Dice dice{seed};
+    RandomGenerator random{seed};
     constexpr float thresholds[]{0, 0x1p-5f, -0x1p-5f, 0x1p-9f, -0x1p-9f, 0x1p-13f, -0x1p-13f};
     std::size_t number = 0;
     for (int y = 0; y + 3 <= item.height; y += 3)
@@ -89,7 +89,7 @@ Item edges_item(int width, int height, const std::vector<Pair>& pairs, std::uint
             const bool is_left = number / (7 * pairs.size()) % 2 == 0;
             const float left = static_cast<float>(x);
             const ClipVertex at =
-                split(dice, item, ways[pair.a], ways[pair.b], left + (is_left ? 0.5f : 1.5f) + threshold);
+                split(random, item, ways[pair.a], ways[pair.b], left + (is_left ? 0.5f : 1.5f) + threshold);
             if (at.w > 0) add_split_box(item, draw, at, left, static_cast<float>(y), is_left);
         }
     item.draws = {draw};
@@ -112,10 +112,10 @@ Item flat_item(DepthFormat format, const std::string& name) {
     item.depth_near = 0.1f;
     item.depth_far = 0.9f;
     Draw draw;
-    Dice dice{12};
+    RandomGenerator random{12};
     for (int y = 0; y < item.height; y += 4)
         for (int x = 0; x < item.width; x += 4) {
-            const float z = dice.between(-1, 1), w = dice.between(0.25f, 8.0f);
+            const float z = random.between(-1, 1), w = random.between(0.25f, 8.0f);
             const auto left = static_cast<float>(x), top = static_cast<float>(y);
             add_box(item, draw, left, top, left + 4.0f, top + 4.0f, white, z, w);
         }

@@ -1,8 +1,8 @@
 // tools/probe/operations_arithmetic.cpp - sums, products, quotients and roots of binary32 in a shader.
 #include <cmath>
 
-#include "tools/probe/dice.h"
 #include "tools/probe/operations_parts.h"
+#include "tools/probe/random_generator.h"
 
 namespace strata::probe {
 
@@ -17,38 +17,38 @@ Hypothesis of(std::string name, Three formula) {
 }
 
 // Normal numbers from 2^-20 to 2^20, of either sign if `is_signed`, else positive.
-std::uint32_t ordinary(Dice& dice, bool is_signed) {
-    const std::uint32_t mantissa = dice.next() & 0x7fffffu;
-    const auto exponent = static_cast<std::uint32_t>(107 + dice.below(40));
-    const std::uint32_t sign = is_signed ? dice.next() & 0x80000000u : 0;
+std::uint32_t ordinary(RandomGenerator& random, bool is_signed) {
+    const std::uint32_t mantissa = random.next() & 0x7fffffu;
+    const auto exponent = static_cast<std::uint32_t>(107 + random.below(40));
+    const std::uint32_t sign = is_signed ? random.next() & 0x80000000u : 0;
     return sign | exponent << 23 | mantissa;
 }
 
 // x, y and z of every texel. If `cancelling`, z is close to -x y, so that the rounding of the product has an effect.
 std::vector<Texel> triples(std::uint64_t seed, bool is_signed, bool cancelling) {
-    Dice dice{seed};
+    RandomGenerator random{seed};
     std::vector<Texel> all;
     for (int i = 0; i < 4096; ++i) {
         Texel t{};
-        for (std::size_t k = 0; k < 3; ++k) t[k] = ordinary(dice, is_signed);
+        for (std::size_t k = 0; k < 3; ++k) t[k] = ordinary(random, is_signed);
         if (cancelling && i % 2 == 1) t[2] = word_of(-(float_of(t[0]) * float_of(t[1])) * 1.25f);
         all.push_back(t);
     }
     return all;
 }
 
-std::uint32_t small(Dice& dice) {
-    const std::uint32_t word = dice.next();
+std::uint32_t small(RandomGenerator& random) {
+    const std::uint32_t word = random.next();
     return (word & 0x807fffffu) | (word >> 28 & 3u) << 23;
 }
 
 // Numbers around the smallest normal one. For a product: one of them, and a factor from 1/2 to 2.
 std::vector<Texel> small_pairs(bool product) {
-    Dice dice{771};
+    RandomGenerator random{771};
     std::vector<Texel> all;
     for (int i = 0; i < 1024; ++i) {
-        const std::uint32_t a = small(dice);
-        const std::uint32_t b = product ? (dice.next() & 0x80ffffffu) + 0x3f000000u : small(dice);
+        const std::uint32_t a = small(random);
+        const std::uint32_t b = product ? (random.next() & 0x80ffffffu) + 0x3f000000u : small(random);
         all.push_back({a, b, 0, 0});
     }
     return all;

@@ -2,8 +2,8 @@
 #include <bit>
 #include <cmath>
 
-#include "tools/probe/dice.h"
 #include "tools/probe/operations_parts.h"
+#include "tools/probe/random_generator.h"
 
 namespace strata::probe {
 
@@ -24,20 +24,20 @@ std::vector<Texel> odd_pairs() {
     std::vector<Texel> all;
     for (const std::uint32_t a : corners_of_numbers)
         for (const std::uint32_t b : corners_of_numbers) all.push_back({a, b, 0, 0});
-    Dice dice{771};
+    RandomGenerator random{771};
     for (int i = 0; i < 768; ++i) {
-        const auto exponent = static_cast<std::uint32_t>(90 + dice.below(70));
-        const std::uint32_t a = (dice.next() & 0x807fffffu) | exponent << 23;
-        const std::uint32_t b = (dice.next() & 0x807fffffu) | exponent << 23;
+        const auto exponent = static_cast<std::uint32_t>(90 + random.below(70));
+        const std::uint32_t a = (random.next() & 0x807fffffu) | exponent << 23;
+        const std::uint32_t b = (random.next() & 0x807fffffu) | exponent << 23;
         all.push_back({a, b, 0, 0});
     }
     return all;
 }
 
 std::vector<Texel> words() {
-    Dice dice{772};
+    RandomGenerator random{772};
     std::vector<Texel> all;
-    for (int i = 0; i < 1024; ++i) all.push_back({dice.next() >> dice.below(8), 0, 0, 0});
+    for (int i = 0; i < 1024; ++i) all.push_back({random.next() >> random.below(8), 0, 0, 0});
     return all;
 }
 

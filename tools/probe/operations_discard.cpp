@@ -5,8 +5,8 @@
 
 #include "pipeline/formats/half.h"
 #include "pipeline/formats/unorm8.h"
-#include "tools/probe/dice.h"
 #include "tools/probe/operations_parts.h"
+#include "tools/probe/random_generator.h"
 
 namespace strata::probe {
 
@@ -15,19 +15,19 @@ namespace {
 constexpr int ulps = 2;  // the largest distance of a threshold from its alpha
 
 // Thresholds: zeros, the smallest numbers, 8-bit codes and the middles between two of them, and arbitrary values.
-float threshold(int i, Dice& dice) {
+float threshold(int i, RandomGenerator& random) {
     constexpr std::array odd{0.0f, -0.0f, 0x1p-149f, 0x1p-130f, 0x1p-126f, 0x1.8p-126f, 0.5f, 1.0f, INFINITY};
     if (i < static_cast<int>(odd.size())) return odd[static_cast<std::size_t>(i)];
-    const float code = static_cast<float>(dice.below(256)) / 255.0f;
-    return i % 3 == 0 ? code : i % 3 == 1 ? code + 0.5f / 255.0f : dice.unit();
+    const float code = static_cast<float>(random.below(256)) / 255.0f;
+    return i % 3 == 0 ? code : i % 3 == 1 ? code + 0.5f / 255.0f : random.unit();
 }
 
 // Alphas for a threshold: its neighbours, values with the same code or half, its negative and NaN.
 std::vector<Texel> alphas_and_thresholds() {
-    Dice dice{831};
+    RandomGenerator random{831};
     std::vector<Texel> all;
     for (int i = 0; i < 64; ++i) {
-        const float t = threshold(i, dice), above = std::nextafter(t, INFINITY), below = std::nextafter(t, -INFINITY);
+        const float t = threshold(i, random), above = std::nextafter(t, INFINITY), below = std::nextafter(t, -INFINITY);
         const std::array<float, 16> alphas{t,
                                            above,
                                            std::nextafter(above, INFINITY),
@@ -43,7 +43,7 @@ std::vector<Texel> alphas_and_thresholds() {
                                            NAN,
                                            0x1p-140f,
                                            -0x1p-140f,
-                                           dice.unit()};
+                                           random.unit()};
         for (const float alpha : alphas) all.push_back({word_of(alpha), word_of(t), 0, 0});
     }
     return all;
@@ -128,13 +128,14 @@ Operation by_attribute() {
     o.programs.front().vertex =
         "layout(location = 0) in highp vec4 clip;\nout highp float alpha;\n"
         "void main() { gl_Position = vec4(clip.xy, 0.0, clip.w); alpha = clip.z; }";
-    Dice dice{832};
+    RandomGenerator random{832};
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
-            const float alpha = static_cast<float>(1 + dice.below(254)) / 255.0f;
+            const float alpha = static_cast<float>(1 + random.below(254)) / 255.0f;
             // A quarter of them are powers of two, with which every rule is exact.
-            const float w = dice.below(4) == 0 ? static_cast<float>(1 << dice.below(3)) : dice.between(0.5f, 4.0f);
-            const std::uint32_t t = word_of(alpha) + static_cast<std::uint32_t>(dice.below(2 * ulps + 1)) - ulps;
+            const float w =
+                random.below(4) == 0 ? static_cast<float>(1 << random.below(3)) : random.between(0.5f, 4.0f);
+            const std::uint32_t t = word_of(alpha) + static_cast<std::uint32_t>(random.below(2 * ulps + 1)) - ulps;
             const float at_x = (static_cast<float>(2 * x + 1) / side - 1.0f) * w;
             const float at_y = (static_cast<float>(2 * y + 1) / side - 1.0f) * w, reach = w / 64.0f;
             o.corners.insert(o.corners.end(), {{at_x - reach, at_y - reach, alpha, w},

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "pipeline/formats/half.h"
-#include "tools/probe/dice.h"
 #include "tools/probe/operations_parts.h"
+#include "tools/probe/random_generator.h"
 
 namespace strata::probe {
 
@@ -16,11 +16,11 @@ constexpr auto packing = "#ifndef GL_ES\n#extension GL_ARB_shading_language_pack
 // Two numbers per texel: middles between two codes and values slightly off them, both ends of the range and values
 // beyond.
 std::vector<Texel> beside_codes(int greatest, bool is_signed) {
-    Dice dice{841};
+    RandomGenerator random{841};
     const auto one = [&] {
-        const double code = dice.below(greatest) + 0.25 * dice.below(4) + 0x1p-8 * (dice.below(3) - 1);
-        const auto value = static_cast<float>(code / greatest * (dice.below(8) == 0 ? 1.5 : 1.0));
-        return is_signed && dice.below(2) == 0 ? -value : value;
+        const double code = random.below(greatest) + 0.25 * random.below(4) + 0x1p-8 * (random.below(3) - 1);
+        const auto value = static_cast<float>(code / greatest * (random.below(8) == 0 ? 1.5 : 1.0));
+        return is_signed && random.below(2) == 0 ? -value : value;
     };
     std::vector<Texel> all;
     for (int i = 0; i < 1024; ++i) {
@@ -32,11 +32,11 @@ std::vector<Texel> beside_codes(int greatest, bool is_signed) {
 
 // For every exponent of a half and some beyond: numbers at, near and between halves.
 std::vector<Texel> beside_halves() {
-    Dice dice{842};
+    RandomGenerator random{842};
     const auto one = [&] {
-        const double mantissa = 1.0 + dice.below(2048) / 2048.0 + 0x1p-20 * (dice.below(3) - 1);
-        const auto value = static_cast<float>(std::ldexp(mantissa, dice.below(46) - 28));
-        return dice.below(2) == 0 ? value : -value;
+        const double mantissa = 1.0 + random.below(2048) / 2048.0 + 0x1p-20 * (random.below(3) - 1);
+        const auto value = static_cast<float>(std::ldexp(mantissa, random.below(46) - 28));
+        return random.below(2) == 0 ? value : -value;
     };
     std::vector<Texel> all;
     for (int i = 0; i < 1024; ++i) {

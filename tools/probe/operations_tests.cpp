@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "tools/probe/dice.h"
 #include "tools/probe/operations_parts.h"
+#include "tools/probe/random_generator.h"
 
 namespace strata::probe {
 
@@ -16,11 +16,11 @@ Operation facing() {
     Operation o{.name = "test.facing", .question = "which turn is the front?", .width = 16};
     o.result = ResultKind::words;
     o.programs = one_pass("result = uvec4(gl_FrontFacing ? 1u : 2u, 0u, 0u, 0u);");
-    Dice dice{821};
+    RandomGenerator random{821};
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) {
-            const bool turned = (dice.next() >> 16 & 1u) != 0;
-            const float reach = 0x1p-4f / static_cast<float>(1 << dice.below(3));
+            const bool turned = (random.next() >> 16 & 1u) != 0;
+            const float reach = 0x1p-4f / static_cast<float>(1 << random.below(3));
             const float at_x = (static_cast<float>(x) + 0.5f) / 8.0f - 1.0f;
             const float at_y = (static_cast<float>(y) + 0.5f) / 8.0f - 1.0f;
             std::array<std::array<float, 4>, 3> corners{{{at_x - reach, at_y - reach, 0.0f, 1.0f},
@@ -92,12 +92,12 @@ Operation invariance(const std::string& name, const std::string& declared, const
     o.result = ResultKind::words;
     o.programs = placed_twice(declared, second);
     o.inputs.assign(64 * 64, Texel{});
-    Dice dice{822};
+    RandomGenerator random{822};
     std::array<std::array<std::array<float, 4>, 18>, 18> grid{};
     for (int y = 0; y < 18; ++y)
         for (int x = 0; x < 18; ++x) {
-            const float shift_x = dice.between(-0.05f, 0.05f), shift_y = dice.between(-0.05f, 0.05f);
-            const float depth = dice.between(-0.9f, 0.9f), w = dice.between(0.9f, 1.1f);
+            const float shift_x = random.between(-0.05f, 0.05f), shift_y = random.between(-0.05f, 0.05f);
+            const float depth = random.between(-0.9f, 0.9f), w = random.between(0.9f, 1.1f);
             grid[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] = {
                 (static_cast<float>(x) / 6.0f - 1.5f) * 1.25f + shift_x,
                 (static_cast<float>(y) / 6.0f - 1.5f) * 1.25f + shift_y, depth, w};

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/probe/dice.h"
 #include "tools/probe/operations_parts.h"
+#include "tools/probe/random_generator.h"
 
 namespace strata::probe {
 
@@ -33,8 +33,8 @@ Operation nearest_texel() {
         for (std::uint32_t k = 0; k < 32; ++k)
             o.inputs.push_back(one_word(i == 0 ? word_of(static_cast<float>(k) * 0x1p-30f) : edge + k - 16));
     }
-    Dice dice{811};
-    while (o.inputs.size() % 64 != 0 || o.inputs.size() < 1024) o.inputs.push_back(one_word(word_of(dice.unit())));
+    RandomGenerator random{811};
+    while (o.inputs.size() % 64 != 0 || o.inputs.size() < 1024) o.inputs.push_back(one_word(word_of(random.unit())));
     const auto texel = [](double place) {
         return one_word(word_of(static_cast<float>(std::clamp(place, 0.0, texels - 1.0))));
     };
@@ -71,9 +71,9 @@ Operation weights(const std::string& format) {
                             "result = uvec4(U(texture(image, vec2(F(given.x), 0.5)).r), 0u, 0u, 0u);", plain_image);
     const bool codes = format == "rgba8";
     o.image = SourceImage{.format = format, .texels = {0, codes ? 0xffu : 0x3f800000u}, .linear = true};
-    Dice dice{812};
+    RandomGenerator random{812};
     for (int i = 0; i < 2048; ++i) {
-        const std::uint32_t word = dice.next();
+        const std::uint32_t word = random.next();
         o.inputs.push_back(one_word(word_of(0.25f + static_cast<float>(word >> 9) * 0x1p-24f)));
     }
     const auto add = [&o](const std::string& name, int count, bool nearest, float (*stored)(float)) {
@@ -113,8 +113,8 @@ std::uint32_t parting_code(std::uint32_t from, int depth_bits) {
 }
 
 // The code of texel i of 64: both ends, codes that distinguish two conversions to a depth, and arbitrary ones.
-std::uint32_t shadow_texel(std::uint32_t i, int depth_bits, Dice& dice) {
-    const float depth = dice.unit();
+std::uint32_t shadow_texel(std::uint32_t i, int depth_bits, RandomGenerator& random) {
+    const float depth = random.unit();
     if (i == 0) return 0;
     if (depth_bits == 32) return word_of(i == 63 ? 1.0f : depth);
     const std::uint32_t greatest = (1u << depth_bits) - 1u;
@@ -132,9 +132,9 @@ Operation shadow(const std::string& format, int depth_bits) {
                             "uniform highp sampler2DShadow image;");
     o.result = ResultKind::words;
     o.image = SourceImage{.format = format, .compare = true};
-    Dice dice{813};
+    RandomGenerator random{813};
     for (std::uint32_t i = 0; i < 64; ++i) {
-        const std::uint32_t code = shadow_texel(i, depth_bits, dice);
+        const std::uint32_t code = shadow_texel(i, depth_bits, random);
         o.image->texels.push_back(code);
         const float at = depth_of(code, depth_bits), step = depth_bits == 32 ? at * 0x1p-12f : depth_of(1, depth_bits);
         for (const float part : {-0.75f, -0.55f, -0.45f, -0.25f, 0.25f, 0.45f, 0.55f, 0.75f})

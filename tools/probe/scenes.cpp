@@ -5,8 +5,8 @@
 #include "pipeline/vertices/prepare.h"
 #include "scenes/camera.h"
 #include "scenes/scene.h"
-#include "tools/probe/dice.h"
 #include "tools/probe/kit.h"
+#include "tools/probe/random_generator.h"
 
 namespace strata::probe {
 
@@ -21,11 +21,11 @@ std::string scene_name(int number) {
 }
 
 // From inside and outside the bounds, so that all planes clip.
-pipeline::View view_of(const scenes::Scene& scene, Dice& dice, double aspect) {
-    const auto azimuth = double{dice.between(0, 360)};
-    const auto elevation = double{dice.between(-80, 80)};
+pipeline::View view_of(const scenes::Scene& scene, RandomGenerator& random, double aspect) {
+    const auto azimuth = double{random.between(0, 360)};
+    const auto elevation = double{random.between(-80, 80)};
     scenes::LookAt camera = scenes::orbit_camera(scene.bounds, azimuth, elevation);
-    const auto nearer = double{dice.between(0.3f, 1.1f)};
+    const auto nearer = double{random.between(0.3f, 1.1f)};
     for (std::size_t i = 0; i < 3; ++i) camera.eye[i] = camera.center[i] + (camera.eye[i] - camera.center[i]) * nearer;
     return scenes::look_at(camera, aspect);
 }
@@ -33,15 +33,15 @@ pipeline::View view_of(const scenes::Scene& scene, Dice& dice, double aspect) {
 }  // namespace
 
 Item unseen_scene(int number) {
-    Dice dice{static_cast<std::uint64_t>(number) + 9000};
+    RandomGenerator random{static_cast<std::uint64_t>(number) + 9000};
     constexpr Format colors[]{Format::rgba8, Format::rgba32f, Format::rgba16f};
     constexpr DepthFormat depths[]{DepthFormat::d24, DepthFormat::d32f, DepthFormat::d16};
     Item item{.name = fmt::format("unseen.{:03}", number), .color = colors[number % 3]};
     item.depth = depths[number / 3 % 3];
-    item.width = 40 + dice.below(60);
-    item.height = 40 + dice.below(60);
+    item.width = 40 + random.below(60);
+    item.height = 40 + random.below(60);
     const scenes::Scene scene = scenes::make_procedural(scene_name(number), {});
-    const pipeline::View view = view_of(scene, dice, static_cast<double>(item.width) / item.height);
+    const pipeline::View view = view_of(scene, random, static_cast<double>(item.width) / item.height);
     const rasterizer::TriangleSoup soup = pipeline::transform(scene.list, view, {.alpha_scale = 0.625f, .threads = 1});
     Draw draw;
     draw.blend = pipeline::blend_mode::over.color;

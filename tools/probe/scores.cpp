@@ -25,9 +25,10 @@ Scores::Scores(const Comparison& device) : device_{device} {
             if (probe::can_change(f->key, device.item(i))) fields.push_back(f);
     }
     for (std::size_t i = 0; i < device.count(); ++i) known_.emplace_back(&memory_);
-    refuses_float_depth_ = device.says_float_depth() && std::ranges::none_of(device.items_of({""}), [&](std::size_t n) {
-                               return device.item(n).depth == DepthFormat::d32f;
-                           });
+    refuses_float_depth_ =
+        device.reports_float_depth() && std::ranges::none_of(device.items_of({""}), [&](std::size_t n) {
+            return device.item(n).depth == DepthFormat::d32f;
+        });
 }
 
 const Nearness& Scores::of(const DeviceProfile& profile, std::size_t number) {

@@ -69,14 +69,14 @@ std::vector<TwoReciprocals> neighbouring_reciprocals() {
     return all;
 }
 
-std::optional<SplitDepths> split_depths(Dice& dice, const TwoReciprocals& two) {
+std::optional<SplitDepths> split_depths(RandomGenerator& random, const TwoReciprocals& two) {
     for (int i = 0; i < most_triangles; ++i) {
         SplitDepths t;
         for (std::size_t k = 0; k < 3; ++k) {
-            t.x[k] = dice.below(16 * cell);
-            t.y[k] = dice.below(16 * cell);
+            t.x[k] = random.below(16 * cell);
+            t.y[k] = random.below(16 * cell);
             // Very different depths: a weight's last bit is about one code.
-            t.z[k] = k == 0 ? dice.between(-0.99f, -0.9f) : dice.between(0.7f, 0.99f);
+            t.z[k] = k == 0 ? random.between(-0.99f, -0.9f) : random.between(0.7f, 0.99f);
         }
         if (twice_area(t) < 0) {
             std::swap(t.x[1], t.x[2]);
@@ -85,7 +85,8 @@ std::optional<SplitDepths> split_depths(Dice& dice, const TwoReciprocals& two) {
         const std::int64_t area = twice_area(t);
         if (area == 0) continue;
         const auto sum = static_cast<double>(area);
-        if (rasterizer::cut_reciprocal(sum, two.first) == rasterizer::cut_reciprocal(sum, two.second)) continue;
+        if (rasterizer::truncated_reciprocal(sum, two.first) == rasterizer::truncated_reciprocal(sum, two.second))
+            continue;
         if (is_split(t, area, two)) return t;
     }
     return std::nullopt;

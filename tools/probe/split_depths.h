@@ -2,8 +2,8 @@
 // window depths.
 //
 // Rule     The two differ in the reciprocal of the area, which changes the last bit of a 24-bit depth at few pixels:
-//          for a difference of 2^-32 in the deficit at one pixel of 256 (window_z.h, cut_weight.h). So a suitable
-//          triangle is searched at random.
+//          for a difference of 2^-32 in the deficit at one pixel of 256 (window_z.h, truncated_weights.h). So a
+//          suitable triangle is searched at random.
 // Tests    tests/tools/probe/kit_test.cpp
 #pragma once
 #include <array>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "rasterizer/rules/depth_hypothesis.h"
-#include "tools/probe/dice.h"
+#include "tools/probe/random_generator.h"
 
 namespace strata::probe {
 
@@ -28,6 +28,6 @@ using TwoReciprocals = std::pair<rasterizer::DepthHypothesis, rasterizer::DepthH
 [[nodiscard]] std::vector<TwoReciprocals> neighbouring_reciprocals();
 
 // Empty if none is found soon.
-[[nodiscard]] std::optional<SplitDepths> split_depths(Dice& dice, const TwoReciprocals& two);
+[[nodiscard]] std::optional<SplitDepths> split_depths(RandomGenerator& random, const TwoReciprocals& two);
 
 }  // namespace strata::probe

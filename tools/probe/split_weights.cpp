@@ -16,11 +16,11 @@ using rasterizer::PerspectiveColor;
 constexpr int center = 56;
 constexpr int most_tries = 3000;
 
-DepthHypothesis random_reciprocal(Dice& dice) {
+DepthHypothesis random_reciprocal(RandomGenerator& random) {
     DepthHypothesis hypothesis;
-    hypothesis.weights = dice.below(2) == 0 ? rasterizer::WeightRule::area : rasterizer::WeightRule::cut_edges;
-    hypothesis.reciprocal_bits = 24 + dice.below(7);
-    hypothesis.reciprocal_deficit = dice.below(9);
+    hypothesis.weights = random.below(2) == 0 ? rasterizer::WeightRule::area : rasterizer::WeightRule::cut_edges;
+    hypothesis.reciprocal_bits = 24 + random.below(7);
+    hypothesis.reciprocal_deficit = random.below(9);
     return hypothesis;
 }
 
@@ -57,21 +57,21 @@ float solved_w(const SplitTriangle& t, const EdgeValues& e, std::size_t k, doubl
 
 }  // namespace
 
-std::optional<SplitTriangle> split_triangle(Dice& dice) {
-    const DepthHypothesis one = random_reciprocal(dice), other = random_reciprocal(dice);
+std::optional<SplitTriangle> split_triangle(RandomGenerator& random) {
+    const DepthHypothesis one = random_reciprocal(random), other = random_reciprocal(random);
     const PerspectiveColor rule =
-        dice.below(2) == 0 ? PerspectiveColor::cut_products : PerspectiveColor::weight_products;
+        random.below(2) == 0 ? PerspectiveColor::cut_products : PerspectiveColor::weight_products;
     for (int i = 0; i < most_tries; ++i) {
         SplitTriangle t;
         for (std::size_t k = 0; k < 3; ++k) {
-            t.x[k] = dice.below(128);
-            t.y[k] = dice.below(128);
-            t.w[k] = dice.between(0.5f, 4.0f);
+            t.x[k] = random.below(128);
+            t.y[k] = random.below(128);
+            t.w[k] = random.between(0.5f, 4.0f);
         }
         const std::optional<EdgeValues> e = edges_of(t);
         if (!e) continue;
-        const auto k = static_cast<std::size_t>(dice.below(3));
-        t.w[k] = solved_w(t, *e, k, (1 + dice.below(127)) / 256.0);
+        const auto k = static_cast<std::size_t>(random.below(3));
+        t.w[k] = solved_w(t, *e, k, (1 + random.below(127)) / 256.0);
         if (t.w[k] < 0.25f || t.w[k] > 8.0f) continue;
         if (weights_of(t, *e, one, rule) != weights_of(t, *e, other, rule)) return t;
     }

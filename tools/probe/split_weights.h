@@ -9,7 +9,7 @@
 #include <array>
 #include <optional>
 
-#include "tools/probe/dice.h"
+#include "tools/probe/random_generator.h"
 
 namespace strata::probe {
 
@@ -20,6 +20,6 @@ struct SplitTriangle {
 };
 
 // Empty if none is found soon.
-[[nodiscard]] std::optional<SplitTriangle> split_triangle(Dice& dice);
+[[nodiscard]] std::optional<SplitTriangle> split_triangle(RandomGenerator& random);
 
 }  // namespace strata::probe

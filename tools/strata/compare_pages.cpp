@@ -44,21 +44,21 @@ std::string count_of(const oracle::Comparison& found) {
 // within a picture.
 void add_findings(PlainPage& page, const oracle::PackComparison& c) {
     if (!c.is_there) return page.paragraph("Not compared: the candidate has nothing of it.");
-    std::vector<std::string> sentences;
-    if (c.picture) sentences.push_back("Picture: " + count_of(*c.picture));
-    if (c.layers) sentences.push_back("Layers: " + count_of(*c.layers));
+    std::vector<std::string> messages;
+    if (c.picture) messages.push_back("Picture: " + count_of(*c.picture));
+    if (c.layers) messages.push_back("Layers: " + count_of(*c.layers));
     if (c.first)
-        sentences.push_back("Passes: the first that differs is " + std::to_string(c.first->number) + ", a " +
-                            c.first->kind + " pass of iteration " + std::to_string(c.first->iteration) + ".");
+        messages.push_back("Passes: the first that differs is " + std::to_string(c.first->number) + ", a " +
+                           c.first->kind + " pass of iteration " + std::to_string(c.first->iteration) + ".");
     else if (!c.passes.empty())
-        sentences.push_back("Passes: all " + std::to_string(c.passes.size()) + " are " +
-                            (c.equal ? "equal." : "alike within the tolerance."));
-    for (const std::string& what : c.missing) sentences.push_back("The candidate has no " + what + ".");
-    page.items(sentences);
+        messages.push_back("Passes: all " + std::to_string(c.passes.size()) + " are " +
+                           (c.equal ? "equal." : "alike within the tolerance."));
+    for (const std::string& what : c.missing) messages.push_back("The candidate has no " + what + ".");
+    page.items(messages);
 }
 
 // "1 of 2 algorithms come out as the pack has them; 3 are not compared."
-std::string sentence_of(const std::vector<oracle::PackComparison>& found) {
+std::string description_of(const std::vector<oracle::PackComparison>& found) {
     const auto compared = std::ranges::count_if(found, &oracle::PackComparison::is_there);
     const auto right =
         std::ranges::count_if(found, [](const oracle::PackComparison& c) { return c.is_there && c.accepted; });
@@ -133,7 +133,7 @@ void add_tables(PlainPage& page, const oracle::Comparison& found) {
                     {}};
         for (const oracle::Explanation& e : found.explanations)
             known.rows.push_back({std::string(e.mistake), std::to_string(e.explained), std::to_string(e.of),
-                                  std::to_string(e.contradicted), std::string(e.sentence)});
+                                  std::to_string(e.contradicted), std::string(e.description)});
         page.table(known, "Known mistakes whose picture is near");
     }
     std::vector<std::string> left_out;
@@ -141,14 +141,14 @@ void add_tables(PlainPage& page, const oracle::Comparison& found) {
     page.items(left_out);
 }
 
-std::string sentence_of(const oracle::Comparison& found) {
+std::string description_of(const oracle::Comparison& found) {
     return found.equal ? "The pictures are equal in every bit." : count_of(found);
 }
 
 PlainPage page_of(const ComparedPaths& paths, const oracle::Picture& reference, const oracle::Picture& candidate,
                   const oracle::Comparison& found) {
     PlainPage page{title_of(found.equal, found.accepted), command_of(paths)};
-    page.sentence(sentence_of(found));
+    page.lead(description_of(found));
     add_pictures(page, {reference, candidate, found, ""}, paths);
     page.heading("What differs");
     add_tables(page, found);
@@ -177,7 +177,7 @@ PlainPage page_of(const ComparedPaths& paths, const std::vector<oracle::PackPict
     PlainPage page{title_of(std::ranges::all_of(found, &oracle::PackComparison::equal),
                             std::ranges::all_of(found, &oracle::PackComparison::accepted)),
                    command_of(paths)};
-    page.sentence(sentence_of(found));
+    page.lead(description_of(found));
     for (const oracle::PackComparison& c : found) {
         page.heading(c.algorithm);
         add_findings(page, c);

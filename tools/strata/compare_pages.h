@@ -27,7 +27,7 @@ void add_heat_map(PlainPage& page, const oracle::Comparison& found);
 // Adds tables of targets, kinds and known mistakes, and a sentence such as "12 of 640 pixels differ, by at most 3
 // codes."
 void add_tables(PlainPage& page, const oracle::Comparison& found);
-[[nodiscard]] std::string sentence_of(const oracle::Comparison& found);
+[[nodiscard]] std::string description_of(const oracle::Comparison& found);
 
 // The pictures of one algorithm that the page of a pack shows: the final ones, or, if those are equal, the first pass
 // that differs.

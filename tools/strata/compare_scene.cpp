@@ -11,11 +11,11 @@
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/drawings.h"
 #include "tools/oracle/mistakes/suite.h"
+#include "tools/oracle/verdict/distinguish_rules.h"
 #include "tools/oracle/verdict/edits.h"
 #include "tools/oracle/verdict/form.h"
 #include "tools/oracle/verdict/report.h"
 #include "tools/oracle/verdict/sample.h"
-#include "tools/oracle/verdict/telling.h"
 #include "tools/oracle/verdict/verdict.h"
 #include "tools/strata/compare_pages.h"
 #include "tools/strata/other_profile.h"
@@ -85,15 +85,15 @@ pipeline::Image drawn(const EditMap& map) {
 
 // Returns the command of the first scene of the suite on which the explanations give different pictures; "" if there is
 // no such scene, or fewer than two explanations.
-std::string telling_command(const oracle::verdict::Verdict& found) {
+std::string distinguishing_command(const oracle::verdict::Verdict& found) {
     std::vector<std::vector<oracle::verdict::Rule>> rules;
-    for (const oracle::verdict::Checked& c : found.explanations)
+    for (const oracle::verdict::CheckedAccount& c : found.explanations)
         if (is_of_any_scene(c.account.rules)) rules.push_back(c.account.rules);
     if (rules.size() < 2) return "";
     for (const oracle::SuiteScene& scene : oracle::suite()) {
         const oracle::OpenScene opened = open(scene);
         const oracle::verdict::SceneFragments fragments{opened.input(), opened.options.fragment_memory};
-        if (tells_apart(fragments, rules)) return command_of(scene);
+        if (distinguishes(fragments, rules)) return command_of(scene);
     }
     return "";
 }
@@ -117,11 +117,11 @@ PlainPage page_of(const std::string& scene, const oracle::Picture& candidate, co
     PlainPage page{"Verdict", std::filesystem::path(candidate.file).filename().string() + " of " +
                                   std::filesystem::path(scene).filename().string()};
     std::istringstream lines(to_text(found, list) + reading);
-    std::vector<std::string> sentences;
-    for (std::string line; std::getline(lines, line);) sentences.push_back(line.substr(line.find_first_not_of(' ')));
-    page.sentence(sentences[0]);
-    sentences.erase(sentences.begin());
-    page.items(sentences);
+    std::vector<std::string> messages;
+    for (std::string line; std::getline(lines, line);) messages.push_back(line.substr(line.find_first_not_of(' ')));
+    page.lead(messages[0]);
+    messages.erase(messages.begin());
+    page.items(messages);
     page.picture(oracle::as_shown(candidate),
                  "The candidate, " + std::filesystem::path(candidate.file).filename().string());
     page.picture(drawn(map), found.is_right ? "Wrong pixels: none, so all of it is black"
@@ -130,7 +130,7 @@ PlainPage page_of(const std::string& scene, const oracle::Picture& candidate, co
     std::vector<PlainPage::Swatch> kinds;
     for (std::size_t i = 0; i < map.edits.size(); ++i)
         kinds.push_back({edit_colors[i % std::size(edit_colors)],
-                         counted(map.edits[i].pixels, sentence(map.edits[i].rules, found.facts, list))});
+                         counted(map.edits[i].pixels, description(map.edits[i].rules, found.facts, list))});
     if (!found.alpha.wrong_pixels.empty())
         kinds.push_back({wrong_alpha_color, counted(found.alpha.wrong_pixels.size(), "alpha alone is wrong")});
     if (map.not_explained > 0)
@@ -157,12 +157,12 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
     if (!found.is_right && !found.is_undecided() && !has_wrong_alpha)
         other = right_by_other_profile({list, session.view, session.profile, options}, options.fragment_memory, seen,
                                        found.right.wrong_pixels);
-    std::string reading = formed.sentence();
+    std::string reading = formed.description();
     if (other) {
-        reading += other->sentence(session.profile.name, found.right.wrong_pixels.size());
+        reading += other->description(session.profile.name, found.right.wrong_pixels.size());
         found = other->verdict;
     }
-    found.telling = telling_command(found);
+    found.distinguishing_command = distinguishing_command(found);
     if (!question.report.empty())
         write_page(question.report,
                    page_of(question.run.scene, candidate, found,

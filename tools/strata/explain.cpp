@@ -62,7 +62,7 @@ int explain(ExplainOptions& options) {
     }
     std::string text;
     for (const oracle::History& history : histories) text += oracle::to_text(history);
-    for (const std::string& sentence : oracle::first_differences(histories)) text += sentence + '\n';
+    for (const std::string& message : oracle::first_differences(histories)) text += message + '\n';
     print(text);
     return 0;
 }

@@ -39,7 +39,7 @@ int check(const std::string& path, Simd simd) {
         return oracle::check_suite(path, simd, [&](double share) { bar.show(share); });
     };
     const std::vector<oracle::PackFault> faults = checked();
-    for (const oracle::PackFault& fault : faults) print(fault.file + ": " + fault.sentence + '\n');
+    for (const oracle::PackFault& fault : faults) print(fault.file + ": " + fault.message + '\n');
     if (faults.empty()) print(path + ": all files match\n");
     return faults.empty() ? 0 : 1;
 }
@@ -61,7 +61,7 @@ oracle::Golden golden_of(RunOptions& options) {
         if (result.outcome == peeling::Outcome::done)
             golden.algorithms.push_back(algorithm);
         else
-            say_error(algorithm->name + ": " + result.refusal->sentence(golden.profile));
+            say_error(algorithm->name + ": " + result.refusal->message(golden.profile));
     }
     return golden;
 }

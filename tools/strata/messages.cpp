@@ -48,17 +48,17 @@ std::string_view code_of(Paint paint) {
 
 // Removes the middle of a sentence that is too long, for example because a name in it has a megabyte; its end contains
 // the value that was found.
-std::string shortened(std::string_view sentence) {
+std::string shortened(std::string_view message) {
     constexpr std::size_t most = 3000, kept = 1000;
-    if (sentence.size() <= most) return scenes::printable(sentence);
-    const std::size_t left_out = sentence.size() - 2 * kept;
-    return fmt::format("{} [{} bytes left out] {}", scenes::printable(sentence.substr(0, kept)), left_out,
-                       scenes::printable(sentence.substr(kept + left_out)));
+    if (message.size() <= most) return scenes::printable(message);
+    const std::size_t left_out = message.size() - 2 * kept;
+    return fmt::format("{} [{} bytes left out] {}", scenes::printable(message.substr(0, kept)), left_out,
+                       scenes::printable(message.substr(kept + left_out)));
 }
 
 // Prints each line with one call, so that lines of different threads do not mix.
-void say(const std::string& begin, std::string_view sentence) {
-    std::fprintf(stderr, "%s %s\n", begin.c_str(), shortened(sentence).c_str());
+void say(const std::string& begin, std::string_view message) {
+    std::fprintf(stderr, "%s %s\n", begin.c_str(), shortened(message).c_str());
 }
 
 }  // namespace
@@ -93,14 +93,14 @@ bool is_quiet() noexcept { return wanted().amount == Amount::quiet; }
 bool is_verbose() noexcept { return wanted().amount == Amount::verbose; }
 bool shows_progress() noexcept { return !is_quiet() && isatty(STDERR_FILENO) == 1; }
 
-void say_error(std::string_view sentence) { say(painted("strata:", Paint::red, Stream::error), sentence); }
+void say_error(std::string_view message) { say(painted("strata:", Paint::red, Stream::error), message); }
 
-void say_warning(std::string_view sentence) {
-    if (!is_quiet()) say("strata: " + painted("warning:", Paint::yellow, Stream::error), sentence);
+void say_warning(std::string_view message) {
+    if (!is_quiet()) say("strata: " + painted("warning:", Paint::yellow, Stream::error), message);
 }
 
-void say_detail(std::string_view sentence) {
-    if (is_verbose()) say("strata:", sentence);
+void say_detail(std::string_view message) {
+    if (is_verbose()) say("strata:", message);
 }
 
 void say_note(std::string_view text) {

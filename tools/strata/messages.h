@@ -29,9 +29,9 @@ enum class Stream : std::uint8_t { output, error };
 // True if progress bars are shown: standard error is a terminal, and -q is not given.
 [[nodiscard]] bool shows_progress() noexcept;
 
-void say_error(std::string_view sentence);    // "strata: ...", also under -q
-void say_warning(std::string_view sentence);  // "strata: warning: ...", except under -q
-void say_detail(std::string_view sentence);   // "strata: ...", only under -v
+void say_error(std::string_view message);    // "strata: ...", also under -q
+void say_warning(std::string_view message);  // "strata: warning: ...", except under -q
+void say_detail(std::string_view message);   // "strata: ...", only under -v
 // Prints text that is not the result to standard error, except under -q.
 void say_note(std::string_view text);
 

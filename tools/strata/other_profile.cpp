@@ -23,9 +23,9 @@ oracle::verdict::Families definite(const oracle::verdict::Colors& candidate) {
 // The explanation of the candidate as a right picture, with fragments that are equal or differ by a few units in the
 // last place. It is returned only if it leaves at most two codes of 255 or few values possible, or if the candidate
 // contains at most one code.
-std::optional<oracle::verdict::Checked> narrow_account(const oracle::verdict::SceneFragments& scene,
-                                                       const oracle::verdict::Colors& candidate,
-                                                       oracle::verdict::Sample& sample) {
+std::optional<oracle::verdict::CheckedAccount> narrow_account(const oracle::verdict::SceneFragments& scene,
+                                                              const oracle::verdict::Colors& candidate,
+                                                              oracle::verdict::Sample& sample) {
     using namespace oracle::verdict;
     constexpr double most_open = 2, most_bits = 4;  // codes; bits per pixel
     auto found = account_for(definite(candidate), {}, scene, candidate, sample);
@@ -69,12 +69,12 @@ bool may_be_right(const oracle::RunInput& input, std::uint64_t bytes, const orac
         }
     });
     sample.sort();
-    return best_of(definite(candidate), {}, sample, Wrong::none).has_value();
+    return best_of(definite(candidate), {}, sample, WrongPixels::none).has_value();
 }
 
 }  // namespace
 
-std::string OtherProfile::sentence(const std::string& given, std::size_t wrong_pixels) const {
+std::string OtherProfile::description(const std::string& given, std::size_t wrong_pixels) const {
     return fmt::format("  by the rules of profile {}; by those of {} it would be wrong at {} pixel{}\n", profile->name,
                        given, wrong_pixels, wrong_pixels == 1 ? "" : "s");
 }

@@ -28,7 +28,7 @@ struct OtherProfile {
     oracle::verdict::Verdict verdict{};
 
     // Returns "  by the rules of profile llvmpipe; by those of geforce8 it would be wrong at 3 pixels\n".
-    [[nodiscard]] std::string sentence(const std::string& given, std::size_t wrong_pixels) const;
+    [[nodiscard]] std::string description(const std::string& given, std::size_t wrong_pixels) const;
 };
 
 // The first such profile among `more` and the built-in profiles; empty if there is none, or if it cannot render the

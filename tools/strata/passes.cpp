@@ -37,7 +37,7 @@ std::string with_spaces(const std::vector<std::string>& words) {
     return text.empty() ? "-" : text;
 }
 
-ordered_json to_json(const oracle::PassShown& pass, const std::string& file) {
+ordered_json to_json(const oracle::PassReport& pass, const std::string& file) {
     ordered_json document{{"number", pass.number},
                           {"kind", oracle::name(pass.kind)},
                           {"iteration", pass.iteration},
@@ -59,7 +59,7 @@ ordered_json to_json(const oracle::PassShown& pass, const std::string& file) {
     return document;
 }
 
-std::vector<std::string> pass_row(const oracle::PassShown& pass) {
+std::vector<std::string> pass_row(const oracle::PassReport& pass) {
     std::string queries;
     for (const oracle::Query& query : pass.queries)
         queries += fmt::format("{}{}: {}", queries.empty() ? "" : ", ", query.count, query.goes_on ? "on" : "stop");
@@ -90,7 +90,7 @@ void show(const RunOptions& options, const Session& session, const peeling::Algo
                 {}};
     oracle::ContactSheet sheet;
     oracle::passes({session.scene.list, session.view, session.profile, options.render}, algorithm,
-                   [&](oracle::PassShown&& pass) {
+                   [&](oracle::PassReport&& pass) {
                        const std::string name = fmt::format("pass.{:03}.exr", pass.number);
                        oracle::write_targets(path(name), pass.targets);
                        sheet.add(pass);
@@ -100,8 +100,8 @@ void show(const RunOptions& options, const Session& session, const peeling::Algo
     scenes::write_image(path("contact.png"), {.color = sheet.image()});
     scenes::write_file(path("passes.json"), document.dump(2) + '\n');
     page.heading(algorithm.name);
-    page.sentence(fmt::format("{} draws {} in {} passes: {}.", algorithm.name, options.scene, table.rows.size(),
-                              algorithm.summary));
+    page.lead(fmt::format("{} draws {} in {} passes: {}.", algorithm.name, options.scene, table.rows.size(),
+                          algorithm.summary));
     page.table(table, "The passes of " + algorithm.name);
     page.picture_with_letters(
         sheet.image(),

@@ -38,25 +38,26 @@ namespace {
 enum Exit : int { bad_input = 2, system_failed = 3 };
 
 // Prints the message of a failure and returns its status.
-int fail(const std::string& sentence, Exit status) {
-    say_error(sentence);
+int fail(const std::string& message, Exit status) {
+    say_error(message);
     return status;
 }
 
 // Warns at the end, because the number of threads that a loop needs is known only when it runs.
 void warn_of_threads() {
     const ThreadShortage threads = thread_shortage();
-    if (threads.had < threads.asked)
-        say_warning(fmt::format("--threads: the system refused {} threads; {} worked", threads.asked, threads.had));
+    if (threads.available < threads.requested)
+        say_warning(
+            fmt::format("--threads: the system refused {} threads; {} worked", threads.requested, threads.available));
 }
 
 using Clock = std::chrono::steady_clock;
 
 // Prints at most 20 errors, because a broken file may have thousands.
-int fail_of(const std::vector<std::string>& sentences) {
+int fail_of(const std::vector<std::string>& messages) {
     constexpr std::size_t most = 20;
-    for (std::size_t i = 0; i < std::min(sentences.size(), most); ++i) say_error(sentences[i]);
-    if (sentences.size() > most) say_error(std::to_string(sentences.size() - most) + " more faults are not shown");
+    for (std::size_t i = 0; i < std::min(messages.size(), most); ++i) say_error(messages[i]);
+    if (messages.size() > most) say_error(std::to_string(messages.size() - most) + " more faults are not shown");
     return bad_input;
 }
 
@@ -102,7 +103,7 @@ std::string value_of(const CLI::App& app, const std::string& name) {
 }
 
 // Rewrites CLI11's error messages in plain words. Messages of this project's validators are returned unchanged.
-std::string sentence(const CLI::ParseError& error, CLI::App& root) {
+std::string message(const CLI::ParseError& error, CLI::App& root) {
     const CLI::App& app = parsed_app(root);
     if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
         const std::string extra = root.remaining(true).front();
@@ -189,13 +190,13 @@ std::string short_help(const std::vector<Command>& commands) {
 }
 
 // Removes the word `all` after `--help`, which would be parsed as a scene; returns Shown::all if it was there.
-Shown take_amount_of_help(std::vector<std::string>& words) {
+HelpDetail take_amount_of_help(std::vector<std::string>& words) {
     for (std::size_t i = 0; i + 1 < words.size(); ++i) {
         if ((words[i] != "--help" && words[i] != "-h") || words[i + 1] != "all") continue;
         words.erase(words.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-        return Shown::all;
+        return HelpDetail::all;
     }
-    return Shown::usual;
+    return HelpDetail::usual;
 }
 
 // CLI11 expects the words in reverse order. A command's name after help or man is an argument: "--" prevents it from
@@ -229,11 +230,11 @@ int parse_and_run(CLI::App& root, const std::vector<Command>& commands, std::vec
         print(short_help(commands));
         return 0;
     }
-    const Shown shown = take_amount_of_help(words);
+    const HelpDetail shown = take_amount_of_help(words);
     try {
         expand_from(words);
         parse(root, words);
-        for (const std::string& sentence : old_words) say_warning(sentence);
+        for (const std::string& message : old_words) say_warning(message);
         for (const Command& command : commands) {
             if (command.app->parsed()) return command.run();
         }
@@ -243,7 +244,7 @@ int parse_and_run(CLI::App& root, const std::vector<Command>& commands, std::vec
     } catch (const CLI::CallForVersion& version) {
         print(std::string(version.what()) + '\n');
     } catch (const CLI::ParseError& error) {
-        return fail(sentence(error, root), bad_input);
+        return fail(message(error, root), bad_input);
     }
     return 0;
 }
@@ -269,7 +270,7 @@ int run(const std::vector<std::string>& given, const std::vector<NamedCommand>& 
 
 int run_program(int count, char** words, const std::vector<NamedCommand>& experiments) {
     const Clock::time_point start = Clock::now();
-    scenes::remove_unfinished_files_when_interrupted();
+    scenes::install_interrupt_handlers();
     scenes::report_written_files([](const std::string& path) { say_detail("wrote " + path); });
     try {
         const int status = run({words + std::min(count, 1), words + count}, experiments);
@@ -277,7 +278,7 @@ int run_program(int count, char** words, const std::vector<NamedCommand>& experi
         tell_effort(start);
         return status;
     } catch (const scenes::InputErrors& errors) {
-        return fail_of(errors.sentences);
+        return fail_of(errors.messages);
     } catch (const InputError& error) {
         return fail(error.what(), bad_input);
     } catch (const pipeline::Refused& error) {

@@ -98,7 +98,7 @@ class Recorded {
     }
 
     [[nodiscard]] std::string path_of(const std::string& name) const {
-        if (scenes::inside_folder(folder_, name).found == scenes::InsideFolder::Found::nothing)
+        if (scenes::inside_folder(folder_, name).status == scenes::InsideFolder::PathStatus::nothing)
             fail("'" + name + "' in the folder " + folder_ + " (--files-in FOLDER names another one)", "none");
         return scenes::path_inside(folder_, name, file_, "strata:command");
     }

@@ -147,7 +147,7 @@ Workbench::Json Workbench::render(const Json& question) {
     const peeling::Algorithm& algorithm = algorithm_of(question);
     peeling::Renderer renderer{scene_->list, view_, profile_, options_};
     peeling::RenderResult result = renderer.render(algorithm);
-    if (result.outcome == peeling::Outcome::refused) return {{"refusal", result.refusal->sentence(profile_)}};
+    if (result.outcome == peeling::Outcome::refused) return {{"refusal", result.refusal->message(profile_)}};
     const scenes::OutputColor color{.color = result.frame.color, .premultiplied = true, .space = space_};
     const pipeline::Image straight = scenes::as_straight_rgba8(color);
     picture_.assign(straight.codes.begin(), straight.codes.end());

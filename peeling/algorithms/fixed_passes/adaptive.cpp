@@ -32,14 +32,14 @@ void build(Region& region, const CurveTargets& t) {
     PassState state = node_state(region, t.depths);
     for (std::size_t e = 0; e < first; ++e) state.color[first + e] = state.reads[first + e] = t.through[e];
     const DepthFormat format = region.frame().key_request().format;
-    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
             VisibilityCurve curve;
             curve.depth.fill(no_node);
             curve.through.fill(1.0f);
             for (std::size_t e = 0; e < count; ++e) {
-                curve.depth[e] = depth_of_node(own, e, i);
-                curve.through[e] = depth_of_node(own, 4 * first + e, i);
+                curve.depth[e] = depth_of_node(loads, e, i);
+                curve.through[e] = depth_of_node(loads, 4 * first + e, i);
             }
             insert(curve, count, is_reversed(region.frame()), depth_as_float(in.code[i], format),
                    1.0f - in.color[3][i]);
@@ -61,13 +61,13 @@ void accumulate(Region& region, const CurveTargets& t, Target sums) {
     state.blend[0] = blend_mode::sum;
     for (std::size_t e = 0; e < first; ++e) state.reads[first + e] = t.through[e];
     const DepthFormat format = region.frame().key_request().format;
-    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
             const float depth = depth_as_float(in.code[i], format);
             float seen = in.color[3][i];
             std::size_t before = 0;
-            while (before < count && depth_of_node(own, before, i) < depth) ++before;
-            if (before > 0) seen *= depth_of_node(own, 4 * first + before - 1, i);
+            while (before < count && depth_of_node(loads, before, i) < depth) ++before;
+            if (before > 0) seen *= depth_of_node(loads, 4 * first + before - 1, i);
             for (std::size_t c = 0; c < 3; ++c) out.color[0][c][i] = in.color[c][i] * seen;
             out.color[0][3][i] = seen;
         }
@@ -79,12 +79,12 @@ void composite(Region& region, const CurveTargets& t, Target sums, Target result
     PassState state;
     state.color[0] = result;
     state.reads = {t.through[last / 4], sums, region.opaque_color()};
-    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
-            const float through = own.color(0)[last % 4][i];
+            const float through = loads.color(0)[last % 4][i];
             for (std::size_t c = 0; c < 3; ++c)
-                out.color[0][c][i] = scalar::composited(own.color(1)[c][i], through, own.color(2)[c][i]);
-            out.color[0][3][i] = scalar::alpha_over(through, own.color(2)[3][i]);
+                out.color[0][c][i] = scalar::composited(loads.color(1)[c][i], through, loads.color(2)[c][i]);
+            out.color[0][3][i] = scalar::alpha_over(through, loads.color(2)[3][i]);
         }
     }));
 }

@@ -25,8 +25,8 @@ void find_depths(Region& region, AtomicEntries& entries) {
     PassState state;
     state.needs = code_only;
     state.reads[0] = region.opaque_depth();
-    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        keep_before(in, own.depth(0), out);
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        keep_before(in, loads.depth(0), out);
         for (std::size_t i = 0; i < lanes(in); ++i)
             if (out.alive[i] != 0) entries.add_code(in.pixel[i], in.code[i]);
     }));
@@ -37,8 +37,8 @@ void find_colors(Region& region, AtomicEntries& entries, const TailTargets& tail
     PixelSet overflow{region};
     PassState state = tail.state();
     state.reads[0] = region.opaque_depth();
-    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        keep_before(in, own.depth(0), out);
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        keep_before(in, loads.depth(0), out);
         for (std::size_t i = 0; i < lanes(in); ++i) {
             if (out.alive[i] == 0) continue;
             const Rgba color{in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]};
@@ -58,12 +58,12 @@ void composite(Region& region, const AtomicEntries& entries, Target behind) {
     PassState state;
     state.color[0] = result;
     state.reads[0] = behind;
-    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
             const Rgba all = entries.composite(in.pixel[i]);
             for (std::size_t c = 0; c < 3; ++c)
-                out.color[0][c][i] = scalar::composited(all[static_cast<int>(c)], all[3], own.color(0)[c][i]);
-            out.color[0][3][i] = scalar::alpha_over(all[3], own.color(0)[3][i]);
+                out.color[0][c][i] = scalar::composited(all[static_cast<int>(c)], all[3], loads.color(0)[c][i]);
+            out.color[0][3][i] = scalar::alpha_over(all[3], loads.color(0)[3][i]);
         }
     }));
     region.publish(result);

@@ -49,10 +49,10 @@ void fill_buckets(Region& region, Target bounds, const std::array<Target, target
     state.color = ends;
     state.reads[0] = bounds;
     for (const Target target : ends) region.clear(target, {.color = empty_ends});
-    static_cast<void>(region.draw(state, [format, reversed](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    static_cast<void>(region.draw(state, [format, reversed](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
             const float depth = depth_as_float(in.code[i], format);
-            const std::size_t own_bucket = bucket_of(reversed, depth, own.color(0)[0][i], own.color(0)[1][i]);
+            const std::size_t own_bucket = bucket_of(reversed, depth, loads.color(0)[0][i], loads.color(0)[1][i]);
             for (std::size_t b = 0; b < buckets; ++b) {
                 const std::size_t channel = b % 2 * 2;
                 out.color[b / 2][channel][i] = b == own_bucket ? 0.0f - depth : empty_ends[0];
@@ -73,13 +73,13 @@ void find_colors(Region& region, Target bounds, std::size_t first, const std::ar
     for (const Target target : colors) region.clear(target, {});
     const DepthFormat format = region.frame().key_request().format;
     const bool reversed = is_reversed(region.frame());
-    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
             const float depth = depth_as_float(in.code[i], format), a = in.color[3][i];
-            const std::size_t bucket = bucket_of(reversed, depth, own.color(0)[0][i], own.color(0)[1][i]) - first;
+            const std::size_t bucket = bucket_of(reversed, depth, loads.color(0)[0][i], loads.color(0)[1][i]) - first;
             std::size_t place = targets;  // no target: the fragment writes 0
-            if (bucket < in_a_pass && in.code[i] < own.depth(3)[i]) {
-                const ColorLanes& both = own.color(static_cast<int>(1 + bucket / 2));
+            if (bucket < in_a_pass && in.code[i] < loads.depth(3)[i]) {
+                const ColorLanes& both = loads.color(static_cast<int>(1 + bucket / 2));
                 const std::size_t channel = bucket % 2 * 2;
                 const bool is_near = 0.0f - depth == both[channel][i], is_far = depth == both[channel + 1][i];
                 if (is_near || is_far)
@@ -104,7 +104,7 @@ void composite(Region& region, const std::array<Target, targets>& colors, Target
         state.blend[0] = blend_mode::under;
         state.reads[0] = layer;
         static_cast<void>(region.full_screen(
-            state, [](const FragmentBatch&, const Loads& own, Outputs& out) { out.color[0] = own.color(0); }));
+            state, [](const FragmentBatch&, const Loads& loads, Outputs& out) { out.color[0] = loads.color(0); }));
     }
 }
 

@@ -58,20 +58,20 @@ class KBuffer {
         state.color[1] = depths_;
         for (std::size_t i = 0; i < k; ++i) state.color[2 + i] = state.reads[2 + i] = colors_[i];
         state.ordered_rmw = true;
-        static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
-            keep_before(in, own.depth(0), out);
+        static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+            keep_before(in, loads.depth(0), out);
             for (std::size_t i = 0; i < lanes(in); ++i)
-                if (out.alive[i] != 0) insert(in, own, out, i);
+                if (out.alive[i] != 0) insert(in, loads, out, i);
         }));
     }
 
     // Inserts the fragment behind all entries of less or equal depth, and composites the nearest entry if there are now
     // k + 1.
-    void insert(const FragmentBatch& in, const Loads& own, Outputs& out, std::size_t i) {
+    void insert(const FragmentBatch& in, const Loads& loads, Outputs& out, std::size_t i) {
         std::array<Entry, k + 1> entries;
         for (std::size_t e = 0; e < k; ++e) {
-            entries[e].depth = own.color(1)[e][i];
-            for (std::size_t c = 0; c < 4; ++c) entries[e].color[c] = own.color(2 + static_cast<int>(e))[c][i];
+            entries[e].depth = loads.color(1)[e][i];
+            for (std::size_t c = 0; c < 4; ++c) entries[e].color[c] = loads.color(2 + static_cast<int>(e))[c][i];
         }
         Entry fragment{depth_as_float(in.code[i], format_),
                        {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]}};
@@ -103,11 +103,11 @@ class KBuffer {
         PassState state = composite_state(accumulated_);
         state.reads = {depths_, colors_[e]};
         static_cast<void>(
-            region_.full_screen(state, [this, e](const FragmentBatch& in, const Loads& own, Outputs& out) {
-                premultiply(own.color(1), out.color[0], lanes(in));
+            region_.full_screen(state, [this, e](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+                premultiply(loads.color(1), out.color[0], lanes(in));
                 out.traced = true;
                 for (std::size_t i = 0; i < lanes(in); ++i) {
-                    const float depth = own.color(0)[e][i];
+                    const float depth = loads.color(0)[e][i];
                     out.alive[i] &= mask(depth != no_entry);
                     out.side[i] = Side::front;
                     out.key[i] = depth_as_code(depth, format_);

@@ -87,11 +87,11 @@ void resolve_pixel(const Lists& lists, std::uint32_t pixel, std::span<const Keye
     Rgba color = lists.region.targets().color(lists.region.opaque_color(), pixel);
     if (rule == Overflow::blend)
         for (const KeyedFragment& f : fragments.subspan(nodes)) blend_over(color, f.color);
-    for (std::size_t i = order.size(); i-- > 0;) blend_over(color, fragments[place_of(order[i])].color);
+    for (std::size_t i = order.size(); i-- > 0;) blend_over(color, fragments[submission_index(order[i])].color);
     RegionShortcuts{lists.region}.store_pixel(result, pixel, color);
     if (!lists.region.frame().trace) return;
     for (const std::uint64_t entry : order) {
-        const KeyedFragment& f = fragments[place_of(entry)];
+        const KeyedFragment& f = fragments[submission_index(entry)];
         lists.region.trace({pixel, f.key, f.primitive, Side::front, true});
     }
 }

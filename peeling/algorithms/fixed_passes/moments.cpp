@@ -91,13 +91,13 @@ void add_moments(Region& region, const MomentTargets& t) {
 }
 
 // The transmittance in front of depth z at lane i.
-float through(const MomentTargets& t, const Loads& own, std::size_t i, float z, const Bias& bias,
+float through(const MomentTargets& t, const Loads& loads, std::size_t i, float z, const Bias& bias,
               double overestimation) {
-    const float total = own.color(0)[0][i];
+    const float total = loads.color(0)[0][i];
     if (!(total > 0.0f)) return 1.0f;
     Moments b{1};
     for (std::size_t m = 0; m < static_cast<std::size_t>(t.moments); ++m) {
-        const float normalized = own.color(static_cast<int>(1 + m / 4))[m % 4][i] / total;
+        const float normalized = loads.color(static_cast<int>(1 + m / 4))[m % 4][i] / total;
         b[m + 1] = (1.0 - bias.share) * static_cast<double>(normalized) + bias.share * bias.of[m];
     }
     const double share = share_before(b, static_cast<std::size_t>(t.moments), static_cast<double>(z), overestimation);
@@ -113,11 +113,11 @@ void accumulate(Region& region, const MomentTargets& t, const AlgorithmOptions& 
     state.reads = {t.total, t.powers[0], t.powers[1]};
     const Frame& frame = region.frame();
     const Bias bias = bias_of(options);
-    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
             const float z = place_of(frame, in.shader_z[i]);
             const float weight =
-                in.color[3][i] * through(t, own, i, z, bias, static_cast<double>(options.overestimation));
+                in.color[3][i] * through(t, loads, i, z, bias, static_cast<double>(options.overestimation));
             for (std::size_t c = 0; c < 3; ++c) out.color[0][c][i] = in.color[c][i] * weight;
             out.color[0][3][i] = weight;
         }
@@ -130,13 +130,13 @@ void composite(Region& region, Target sums, Target total, Target result) {
     PassState state;
     state.color[0] = result;
     state.reads = {sums, total, region.opaque_color()};
-    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         Lanes<float> all;
         for (std::size_t i = 0; i < lanes(in); ++i) {
-            const float absorbance = own.color(1)[0][i];
+            const float absorbance = loads.color(1)[0][i];
             all[i] = absorbance >= minus_log(least_through) ? 0.0f : exp_of_minus(absorbance);
         }
-        resolve_weighted(own.color(0), own.color(0)[3], all, own.color(2), out.color[0], lanes(in));
+        resolve_weighted(loads.color(0), loads.color(0)[3], all, loads.color(2), out.color[0], lanes(in));
     }));
 }
 

@@ -62,12 +62,12 @@ void insert_all(Region& region, const NodeTargets& t) {
     PassState state = node_state(region, t.depths);
     for (std::size_t e = 0; e < count; ++e) state.color[first + e] = state.reads[first + e] = t.layers[e];
     const DepthFormat format = region.frame().key_request().format;
-    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
             std::array<Node, most_nodes> nodes;
             for (std::size_t e = 0; e < count; ++e) {
-                const ColorLanes& layer = own.color(static_cast<int>(first + e));
-                nodes[e] = {depth_of_node(own, e, i), {layer[0][i], layer[1][i], layer[2][i], layer[3][i]}};
+                const ColorLanes& layer = loads.color(static_cast<int>(first + e));
+                nodes[e] = {depth_of_node(loads, e, i), {layer[0][i], layer[1][i], layer[2][i], layer[3][i]}};
             }
             const float a = in.color[3][i];
             insert(nodes, count,
@@ -86,12 +86,12 @@ void composite(Region& region, const NodeTargets& t, Target result) {
     state.color[0] = result;
     state.reads[0] = region.opaque_color();
     for (std::size_t e = 0; e < static_cast<std::size_t>(t.depths.nodes); ++e) state.reads[1 + e] = t.layers[e];
-    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        const ColorLanes& background = own.color(0);
+    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        const ColorLanes& background = loads.color(0);
         for (std::size_t i = 0; i < lanes(in); ++i) {
             Rgba all{0, 0, 0, 1};
             for (int e = 1; e <= t.depths.nodes; ++e) {
-                const ColorLanes& layer = own.color(e);
+                const ColorLanes& layer = loads.color(e);
                 all = merged(all, {layer[0][i], layer[1][i], layer[2][i], layer[3][i]});
             }
             for (std::size_t c = 0; c < 3; ++c)

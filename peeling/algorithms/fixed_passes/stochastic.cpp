@@ -73,12 +73,12 @@ void accumulate(Region& region, const Samples& samples, Target sums, Target thro
     for (std::size_t t = 0; t < samples.targets(); ++t) state.reads[t] = samples.depths[t];
     const DepthFormat format = region.frame().key_request().format;
     const float share = 1.0f / static_cast<float>(samples.count);
-    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
             const float depth = 0.0f - depth_as_float(in.code[i], format);
             int seen = 0;
             for (int s = 0; s < samples.count; ++s)
-                seen += own.color(s / 4)[static_cast<std::size_t>(s) % 4][i] <= depth ? 1 : 0;
+                seen += loads.color(s / 4)[static_cast<std::size_t>(s) % 4][i] <= depth ? 1 : 0;
             const float a = in.color[3][i], weight = a * (static_cast<float>(seen) * share);
             for (std::size_t c = 0; c < 3; ++c) out.color[0][c][i] = in.color[c][i] * weight;
             out.color[0][3][i] = weight;
@@ -92,8 +92,8 @@ void composite(Region& region, Target sums, Target through, Target result) {
     PassState state;
     state.color[0] = result;
     state.reads = {sums, through, region.opaque_color()};
-    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        resolve_weighted(own.color(0), own.color(0)[3], own.color(1)[0], own.color(2), out.color[0], lanes(in));
+    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        resolve_weighted(loads.color(0), loads.color(0)[3], loads.color(1)[0], loads.color(2), out.color[0], lanes(in));
     }));
 }
 

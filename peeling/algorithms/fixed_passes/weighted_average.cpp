@@ -40,10 +40,10 @@ struct StuckPixels {
 StuckPixels resolve(Region& region, const PassState& state) {
     const bool half_count = region.storage(state.reads[1]).format() == Format::r16f;
     StuckPixels stuck;
-    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        const ColorLanes& sum = own.color(0);
-        const Lanes<float>& n = own.color(1)[0];
-        resolve_average(sum, n, own.color(2), out.color[0], lanes(in));
+    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        const ColorLanes& sum = loads.color(0);
+        const Lanes<float>& n = loads.color(1)[0];
+        resolve_average(sum, n, loads.color(2), out.color[0], lanes(in));
         for (std::size_t i = 0; i < lanes(in); ++i) {
             if (!(half_count && n[i] >= 2048.0f) && sum[3][i] <= 65504.0f) continue;
             ++stuck.pixels;

@@ -65,10 +65,10 @@ void resolve(Region& region, Form form, const PassState& state) {
     const bool half = region.storage(state.reads[0]).format() == Format::rgba16f;
     const float limit = half ? 65504.0f : std::numeric_limits<float>::max();
     PixelSet saturated{region};
-    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        const ColorLanes &sum = own.color(0), &background = own.color(2);
-        const Lanes<float>&weights = form == Form::apart ? sum[3] : own.color(1)[0],
-              &revealage = form == Form::apart ? own.color(1)[0] : sum[3];
+    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        const ColorLanes &sum = loads.color(0), &background = loads.color(2);
+        const Lanes<float>&weights = form == Form::apart ? sum[3] : loads.color(1)[0],
+              &revealage = form == Form::apart ? loads.color(1)[0] : sum[3];
         resolve_weighted(sum, weights, revealage, background, out.color[0], lanes(in));
         for (std::size_t i = 0; i < lanes(in); ++i)
             if (!(weights[i] <= limit && sum[0][i] <= limit && sum[1][i] <= limit && sum[2][i] <= limit))

@@ -30,12 +30,12 @@ void run(Region& region) {
     PassState resolve;
     resolve.color[0] = result;
     resolve.reads = {sums, region.opaque_color()};
-    static_cast<void>(region.full_screen(resolve, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    static_cast<void>(region.full_screen(resolve, [](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t i = 0; i < lanes(in); ++i)
-                out.color[0][c][i] = own.color(0)[c][i] + own.color(1)[c][i] * (1.0f - own.color(0)[3][i]);
+                out.color[0][c][i] = loads.color(0)[c][i] + loads.color(1)[c][i] * (1.0f - loads.color(0)[3][i]);
         for (std::size_t i = 0; i < lanes(in); ++i)
-            out.color[0][3][i] = scalar::alpha_over(1.0f - own.color(0)[3][i], own.color(1)[3][i]);
+            out.color[0][3][i] = scalar::alpha_over(1.0f - loads.color(0)[3][i], loads.color(1)[3][i]);
     }));
     region.publish(result);
 }

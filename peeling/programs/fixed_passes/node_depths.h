@@ -42,8 +42,8 @@ struct NodeDepths {
     return state;
 }
 
-[[nodiscard]] inline float depth_of_node(const pipeline::Loads& own, std::size_t node, std::size_t lane) noexcept {
-    return own.color(static_cast<int>(node / 4))[node % 4][lane];
+[[nodiscard]] inline float depth_of_node(const pipeline::Loads& loads, std::size_t node, std::size_t lane) noexcept {
+    return loads.color(static_cast<int>(node / 4))[node % 4][lane];
 }
 
 }  // namespace strata::peeling

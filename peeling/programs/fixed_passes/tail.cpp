@@ -68,12 +68,12 @@ Target TailTargets::resolve() {
     PassState state;
     state.color[0] = color_;
     state.reads = {sums_, other_, behind_};
-    static_cast<void>(region_.full_screen(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        const ColorLanes& sums = own.color(0);
+    static_cast<void>(region_.full_screen(state, [this](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        const ColorLanes& sums = loads.color(0);
         if (tail_ == Tail::average)
-            resolve_average(sums, own.color(1)[0], own.color(2), out.color[0], lanes(in));
+            resolve_average(sums, loads.color(1)[0], loads.color(2), out.color[0], lanes(in));
         else
-            resolve_weighted(sums, sums[3], own.color(1)[0], own.color(2), out.color[0], lanes(in));
+            resolve_weighted(sums, sums[3], loads.color(1)[0], loads.color(2), out.color[0], lanes(in));
     }));
     return color_;
 }

@@ -9,27 +9,27 @@ namespace {
 constexpr std::uint64_t elements_per_byte =
     16;  // 1 suffices for unshared data; the rest is for primitives that share vertices
 
-void check_media_type(const Resource& resource, const Place& place) {
+void check_media_type(const Resource& resource, const FileLocation& location) {
     const std::string& type = resource.media_type;
     if (!type.empty() && type != "application/octet-stream" && type != "application/gltf-buffer")
-        place.fail("BUFFER_DATA_URI_MIME_TYPE_INVALID", "application/octet-stream or application/gltf-buffer",
-                   in_quotes(type));
+        location.fail("BUFFER_DATA_URI_MIME_TYPE_INVALID", "application/octet-stream or application/gltf-buffer",
+                      in_quotes(type));
 }
 
 }  // namespace
 
-void Budget::pay_elements(std::uint64_t count, const Place& place) {
+void Budget::pay_elements(std::uint64_t count, const FileLocation& location) {
     if (count > elements_)
-        place.fail("VALUE_NOT_IN_RANGE",
-                   "meshes of at most 2^22 vertices and indices, and 16 more for each byte of the file",
-                   "more with the " + std::to_string(count) + " of this primitive");
+        location.fail("VALUE_NOT_IN_RANGE",
+                      "meshes of at most 2^22 vertices and indices, and 16 more for each byte of the file",
+                      "more with the " + std::to_string(count) + " of this primitive");
     elements_ -= count;
 }
 
-void Budget::pay_texels(std::uint64_t count, const Place& place) {
+void Budget::pay_texels(std::uint64_t count, const FileLocation& location) {
     if (count > texels_)
-        place.fail("VALUE_NOT_IN_RANGE", "textures of at most 2^28 texels together",
-                   "more with the " + std::to_string(count) + " of this image");
+        location.fail("VALUE_NOT_IN_RANGE", "textures of at most 2^28 texels together",
+                      "more with the " + std::to_string(count) + " of this image");
     texels_ -= count;
 }
 
@@ -52,17 +52,18 @@ Bytes Buffers::read(std::size_t index) {
     const auto declared = at.json()["byteLength"].get<std::size_t>();
     Bytes bytes;
     if (const auto uri = at.find("uri")) {
-        Resource resource = read_uri(uri->json().get_ref<const std::string&>(), document_.folder, uri->place());
-        check_media_type(resource, uri->place());
+        Resource resource = read_uri(uri->json().get_ref<const std::string&>(), document_.folder, uri->location());
+        check_media_type(resource, uri->location());
         bytes = held_[index] = std::move(resource.bytes);
     } else {
         if (index != 0)
-            at.place().fail("BUFFER_NON_FIRST_GLB", "a uri, for only the first buffer can be the BIN chunk", "none");
-        if (!document_.bin) at.place().fail("BUFFER_MISSING_GLB_DATA", "a uri, for the file has no BIN chunk", "none");
+            at.location().fail("BUFFER_NON_FIRST_GLB", "a uri, for only the first buffer can be the BIN chunk", "none");
+        if (!document_.bin)
+            at.location().fail("BUFFER_MISSING_GLB_DATA", "a uri, for the file has no BIN chunk", "none");
         bytes = *document_.bin;
     }
     if (bytes.size() < declared)
-        at.place()
+        at.location()
             .under("byteLength")
             .fail(at.has("uri") ? "BUFFER_EXTERNAL_BYTELENGTH_MISMATCH" : "BUFFER_EMBEDDED_BYTELENGTH_MISMATCH",
                   "at most the " + std::to_string(bytes.size()) + " bytes that are there", std::to_string(declared));

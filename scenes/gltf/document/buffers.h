@@ -21,7 +21,7 @@ struct Document {
 
     [[nodiscard]] JsonAt root() const { return {json, {file, ""}}; }
     [[nodiscard]] JsonAt at(const char* kind, std::size_t index) const {  // of a checked document
-        return {json[kind][index], Place{file, ""}.under(kind).under(index)};
+        return {json[kind][index], FileLocation{file, ""}.under(kind).under(index)};
     }
 };
 
@@ -33,8 +33,8 @@ class Budget {
     Budget(std::uint64_t elements, std::uint64_t texels) : elements_{elements}, texels_{texels} {}
 
     void allow_elements(std::uint64_t more) { elements_ += more; }
-    void pay_elements(std::uint64_t count, const Place& place);
-    void pay_texels(std::uint64_t count, const Place& place);
+    void pay_elements(std::uint64_t count, const FileLocation& location);
+    void pay_texels(std::uint64_t count, const FileLocation& location);
 
   private:
     std::uint64_t elements_, texels_;

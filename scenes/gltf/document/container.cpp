@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "scenes/gltf/document/place.h"
+#include "scenes/gltf/document/file_location.h"
 
 namespace strata::scenes {
 namespace {
@@ -57,7 +57,7 @@ class ChunkReader {
 
     [[noreturn]] void fail(std::size_t at, std::string_view code, const std::string& expected,
                            std::uint64_t found) const {
-        Place{file_, "byte " + std::to_string(at)}.fail(code, expected, std::to_string(found));
+        FileLocation{file_, "byte " + std::to_string(at)}.fail(code, expected, std::to_string(found));
     }
 
   private:
@@ -105,7 +105,7 @@ Container split_glb(Bytes bytes, const std::string& file) {
 }  // namespace
 
 Container split_container(Bytes bytes, const std::string& file) {
-    const Place start{file, "byte 0"};
+    const FileLocation start{file, "byte 0"};
     if (bytes.empty()) start.fail("INVALID_JSON", "a glTF file", "an empty one");
     const bool is_glb = bytes.size() >= 4 && word(bytes, 0) == magic;
     const auto first = std::to_integer<unsigned char>(bytes[0]);

@@ -11,12 +11,12 @@ namespace strata::scenes {
 // what() is the first fault and the number of the others.
 struct InputErrors : InputError {
     InputErrors(const InputError& first, std::vector<std::string> all)
-        : InputError(first), sentences(std::move(all)), text_(first.what()) {
-        if (sentences.size() > 1) text_ += " (and " + std::to_string(sentences.size() - 1) + " more)";
+        : InputError(first), messages(std::move(all)), text_(first.what()) {
+        if (messages.size() > 1) text_ += " (and " + std::to_string(messages.size() - 1) + " more)";
     }
     [[nodiscard]] const char* what() const noexcept override { return text_.c_str(); }
 
-    std::vector<std::string> sentences;  // including the first
+    std::vector<std::string> messages;  // including the first
 
   private:
     std::string text_;

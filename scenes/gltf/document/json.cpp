@@ -10,7 +10,7 @@ namespace {
 // parser's own callback takes quadratic time on long arrays of objects.)
 class Guard {
   public:
-    explicit Guard(const Place& place) : place_{place} {}
+    explicit Guard(const FileLocation& location) : location_{location} {}
 
     bool null() { return true; }
     bool boolean(bool) { return true; }
@@ -25,20 +25,20 @@ class Guard {
     bool end_array() { return leave(); }
     bool key(Json::string_t& name) {
         if (!keys_.back().insert(name).second)
-            place_.fail("INVALID_JSON", "each key once in an object", in_quotes(name) + " twice");
+            location_.fail("INVALID_JSON", "each key once in an object", in_quotes(name) + " twice");
         return true;
     }
     bool parse_error(std::size_t, const std::string&, const Json::exception& error) {
         const std::string_view what = error.what();  // "[json.exception.parse_error.101] parse error at line ..."
-        place_.fail("INVALID_JSON", "JSON text", one_line(what.substr(what.find(' ') + 1)));
+        location_.fail("INVALID_JSON", "JSON text", one_line(what.substr(what.find(' ') + 1)));
     }
 
   private:
     bool enter() {
         keys_.emplace_back();
         if (keys_.size() > max_json_depth)
-            place_.fail("INVALID_JSON", "nesting at most " + std::to_string(max_json_depth) + " deep",
-                        "deeper nesting");
+            location_.fail("INVALID_JSON", "nesting at most " + std::to_string(max_json_depth) + " deep",
+                           "deeper nesting");
         return true;
     }
     bool leave() {
@@ -46,7 +46,7 @@ class Guard {
         return true;
     }
 
-    const Place& place_;
+    const FileLocation& location_;
     std::vector<std::set<std::string>> keys_;  // of the open objects; the set of an array stays empty
 };
 
@@ -66,8 +66,8 @@ std::string escaped(std::string_view key) {  // RFC 6901
 }  // namespace
 
 Json parse_json(std::string_view text, const std::string& file) {
-    const Place place{file, ""};
-    Guard guard{place};
+    const FileLocation location{file, ""};
+    Guard guard{location};
     Json::sax_parse(text.begin(), text.end(), &guard);
     return Json::parse(text.begin(), text.end());
 }
@@ -85,12 +85,12 @@ std::string JsonAt::shown() const {
 std::optional<JsonAt> JsonAt::find(const std::string& key) const {
     const auto found = object().json_->find(key);
     if (found == json_->end()) return std::nullopt;
-    return JsonAt{*found, place_.under(escaped(key))};
+    return JsonAt{*found, location_.under(escaped(key))};
 }
 
 JsonAt JsonAt::member(const std::string& key) const {
     if (auto found = find(key)) return *std::move(found);
-    place_.fail("UNDEFINED_PROPERTY", "the property " + one_line(key), "none");
+    location_.fail("UNDEFINED_PROPERTY", "the property " + one_line(key), "none");
 }
 
 const JsonAt& JsonAt::object() const {
@@ -102,7 +102,7 @@ std::vector<JsonAt> JsonAt::elements() const {
     if (!json_->is_array()) fail("TYPE_MISMATCH", "an array");
     std::vector<JsonAt> all;
     all.reserve(json_->size());
-    for (const Json& element : *json_) all.emplace_back(element, place_.under(all.size()));
+    for (const Json& element : *json_) all.emplace_back(element, location_.under(all.size()));
     return all;
 }
 

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/gltf/document/place.h"
+#include "scenes/gltf/document/file_location.h"
 
 namespace strata::scenes {
 
@@ -26,9 +26,9 @@ inline constexpr std::size_t max_json_depth = 100;
 // A value of the tree. Every accessor checks the type first and throws InputError with the JSON pointer.
 class JsonAt {
   public:
-    JsonAt(const Json& json, Place place) : json_{&json}, place_{std::move(place)} {}
+    JsonAt(const Json& json, FileLocation location) : json_{&json}, location_{std::move(location)} {}
 
-    [[nodiscard]] const Place& place() const { return place_; }
+    [[nodiscard]] const FileLocation& location() const { return location_; }
     [[nodiscard]] const Json& json() const { return *json_; }
     [[nodiscard]] std::string shown() const;  // the value in short form, for the `found` part of an error
 
@@ -51,12 +51,12 @@ class JsonAt {
     void numbers(std::size_t count) const;                                          // an array of `count` numbers
 
     [[noreturn]] void fail(std::string_view code, const std::string& expected) const {
-        place_.fail(code, expected, shown());
+        location_.fail(code, expected, shown());
     }
 
   private:
     const Json* json_;
-    Place place_;
+    FileLocation location_;
 };
 
 }  // namespace strata::scenes

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/gltf/document/place.h"
+#include "scenes/gltf/document/file_location.h"
 
 namespace strata::scenes {
 
@@ -27,9 +27,9 @@ struct Resource {
 
 // `folder`: the scene's folder; if empty, only data: uris are allowed.
 [[nodiscard]] Resource read_uri(std::string_view uri, const std::optional<std::filesystem::path>& folder,
-                                const Place& place);
+                                const FileLocation& location);
 
 // Reads a whole regular file of at most max_file_bytes.
-[[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& path, const Place& place);
+[[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& path, const FileLocation& location);
 
 }  // namespace strata::scenes

@@ -10,24 +10,24 @@ namespace strata::scenes {
 class Warnings {
   public:
     // If the message is already known, only its count increases.
-    void add(const std::string& pointer, const std::string& sentence) {
-        const auto [known, is_new] = index_.emplace(sentence, kinds_.size());
-        if (is_new) kinds_.push_back({sentence, pointer});
+    void add(const std::string& pointer, const std::string& message) {
+        const auto [known, is_new] = index_.emplace(message, kinds_.size());
+        if (is_new) kinds_.push_back({message, pointer});
         ++kinds_[known->second].places;
     }
     // One line per message, in the order of their first uses.
-    [[nodiscard]] std::vector<std::string> sentences() const {
+    [[nodiscard]] std::vector<std::string> messages() const {
         std::vector<std::string> lines;
         for (const Kind& k : kinds_) {
             const std::string more = k.places > 1 ? " (and " + std::to_string(k.places - 1) + " more)" : "";
-            lines.push_back(k.pointer + more + ": " + k.sentence);
+            lines.push_back(k.pointer + more + ": " + k.message);
         }
         return lines;
     }
 
   private:
     struct Kind {
-        std::string sentence, pointer;
+        std::string message, pointer;
         std::size_t places = 0;
     };
     std::vector<Kind> kinds_;  // in the order of their first uses

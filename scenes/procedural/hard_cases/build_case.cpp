@@ -75,7 +75,7 @@ pipeline::View perspective_view(double near, double far) {
 }
 
 // The eye looks along -z, and clip x is eye x.
-pipeline::Vec3 seen_at(const CaseScene& scene, double x, double y, double w) noexcept {
+pipeline::Vec3 point_at_window(const CaseScene& scene, double x, double y, double w) noexcept {
     const pipeline::Vec3 at_one = position(scene, {x, y, 0});
     return {static_cast<float>(double{at_one.x} * w), static_cast<float>(double{at_one.y} * w), static_cast<float>(-w)};
 }
@@ -83,8 +83,8 @@ pipeline::Vec3 seen_at(const CaseScene& scene, double x, double y, double w) noe
 void add_facing_quad(CaseScene& scene, double w, const pipeline::Rgba& color) {
     const double right = scene.width, bottom = scene.height;
     add_corners(scene.transparent,
-                {seen_at(scene, 0, 0, w), seen_at(scene, right, 0, w), seen_at(scene, 0, bottom, w),
-                 seen_at(scene, right, bottom, w)},
+                {point_at_window(scene, 0, 0, w), point_at_window(scene, right, 0, w),
+                 point_at_window(scene, 0, bottom, w), point_at_window(scene, right, bottom, w)},
                 color, Diagonal::falling);
 }
 

@@ -46,7 +46,7 @@ void add_opaque_quad(CaseScene& scene, const Box& box, const Tilt& depth, const 
 // The same with a far plane: window depth is (1 - near / w) far / (far - near).
 [[nodiscard]] pipeline::View perspective_view(double near, double far);
 // The position that such a view shows at window position (x, y) and distance `w`.
-[[nodiscard]] pipeline::Vec3 seen_at(const CaseScene& scene, double x, double y, double w) noexcept;
+[[nodiscard]] pipeline::Vec3 point_at_window(const CaseScene& scene, double x, double y, double w) noexcept;
 // A quad over the whole frame at distance `w`.
 void add_facing_quad(CaseScene& scene, double w, const pipeline::Rgba& color);
 

@@ -127,7 +127,7 @@ TEST_CASE(
     options.algorithm.nodes = 7;
     const RenderResult result = render(scene, {"ideal", "multi_layer"}, options);
     REQUIRE(result.refusal);
-    CHECK(result.refusal->sentence(*strata::pipeline::find_profile("ideal")) ==
+    CHECK(result.refusal->message(*strata::pipeline::find_profile("ideal")) ==
           "profile ideal has no targets for more than 6 layers and their depths in one pass; use --nodes 6");
 }
 

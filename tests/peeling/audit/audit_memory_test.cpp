@@ -46,7 +46,7 @@ Algorithm forgetful() {
 Audited audit(const FragmentScene& scene, const Algorithm& algorithm, const Way& way) {
     TestFrame test{scene, "geforce8", way.tile_size};
     Frame& frame = test.frame;
-    frame.alike_where_blank = true;
+    frame.blank_tiles_are_equal = true;
     frame.trace = algorithm.ties != TiePolicy::none;
     frame.key = algorithm.key;
     const int workers = way.execution == Execution::literal ? 1 : way.threads;
@@ -57,7 +57,7 @@ Audited audit(const FragmentScene& scene, const Algorithm& algorithm, const Way&
         algorithm.run(region);
     };
     Audit audit{frame, body, algorithm, way.bytes, way.threads};
-    const FrameResult result = run(frame, body, way.execution, way.threads, {}, {}, audit.watch());
+    const FrameResult result = run(frame, body, way.execution, way.threads, {}, {}, audit.callbacks());
     return {audit.finish(result), bodies, result.work.regions};
 }
 
@@ -83,7 +83,7 @@ FragmentScene deep_pixel(int fragments) {
     return scene;
 }
 
-std::string sentence(const FragmentScene& scene, const Algorithm& algorithm, std::uint64_t bytes) {
+std::string message(const FragmentScene& scene, const Algorithm& algorithm, std::uint64_t bytes) {
     try {
         static_cast<void>(audit(scene, algorithm, {.bytes = bytes, .execution = Execution::replay}));
     } catch (const strata::InputError& error) {
@@ -169,8 +169,8 @@ TEST_CASE("if one pixel's fragments exceed the memory the message names the pixe
             "strata: --fragment-memory: expected at least " + std::to_string(enough) +
             " bytes for the audit of pixel (5, 3), which has 300 fragments, or --no-audit, found 16384";
         INFO(name);
-        CHECK(sentence(scene, algorithm, 16384) == expected);
-        CHECK(sentence(scene, algorithm, enough) == "");
+        CHECK(message(scene, algorithm, 16384) == expected);
+        CHECK(message(scene, algorithm, enough) == "");
     }
 }
 
@@ -181,9 +181,9 @@ TEST_CASE("a pixel whose trace is too long is reported with the memory doubled")
         find_algorithm("front_to_back")->run(region);
         for (int i = 0; i < 1000; ++i) region.trace({0, 7, 0, Side::front, false});
     };
-    const std::string found = sentence(deep_pixel(1), endless, 8192);
+    const std::string found = message(deep_pixel(1), endless, 8192);
     CHECK(found.find("at least 16384 bytes for the audit of pixel (") != std::string::npos);
-    CHECK(sentence(deep_pixel(1), endless, 1 << 17) == "");
+    CHECK(message(deep_pixel(1), endless, 1 << 17) == "");
 }
 
 TEST_CASE("a renderer without fragment memory audits with the minimum and rejects a pixel that needs more", "[slow]") {

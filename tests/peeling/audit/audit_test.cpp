@@ -22,12 +22,12 @@ void composite(Region& region, Target layer, Target depth, Target result, Side s
     state.color[0] = result;
     state.blend[0] = blend_mode::over;
     state.reads = {layer, depth, region.opaque_depth()};
-    static_cast<void>(region.full_screen(state, [side](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        out.color[0] = own.color(0);
+    static_cast<void>(region.full_screen(state, [side](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        out.color[0] = loads.color(0);
         out.traced = true;
         for (std::size_t i = 0; i < lanes(in); ++i) {
-            out.side[i] = own.depth(1)[i] != own.depth(2)[i] ? side : Side::none;
-            out.key[i] = own.depth(1)[i];
+            out.side[i] = loads.depth(1)[i] != loads.depth(2)[i] ? side : Side::none;
+            out.key[i] = loads.depth(1)[i];
         }
     }));
 }
@@ -48,11 +48,12 @@ void peel(Region& region) {
         state.depth_target = nearest;
         state.color[0] = layer;
         if (number > 0) state.reads[0] = peeled;
-        const Drawn drawn = region.draw(state, [number](const FragmentBatch& in, const Loads& own, Outputs& out) {
-            out.color[0] = in.color;
-            for (std::size_t i = 0; number > 0 && i < lanes(in); ++i)
-                if (in.code[i] <= own.depth(0)[i]) out.discard(static_cast<int>(i));
-        });
+        const DrawCounts drawn =
+            region.draw(state, [number](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+                out.color[0] = in.color;
+                for (std::size_t i = 0; number > 0 && i < lanes(in); ++i)
+                    if (in.code[i] <= loads.depth(0)[i]) out.discard(static_cast<int>(i));
+            });
         const Side side = mistake == Mistake::wrong_order ? Side::back : Side::front;
         if (mistake != Mistake::loses_second || number != 1) composite(region, layer, nearest, result, side);
         if (mistake == Mistake::blends_first_twice && number == 0) composite(region, layer, nearest, result, side);
@@ -194,7 +195,7 @@ TEST_CASE("every tie policy places every fragment as counting the others does") 
                 const int at = place(keys, i, policy);
                 kept += at >= 0 ? 1 : 0;
                 if (at >= 0 && (static_cast<std::size_t>(at) >= ordered.size() ||
-                                place_of(ordered[static_cast<std::size_t>(at)]) != i))
+                                submission_index(ordered[static_cast<std::size_t>(at)]) != i))
                     ++wrong;
             }
             wrong += kept != ordered.size() ? 1 : 0;

@@ -51,7 +51,7 @@ Both both(const DrawList& list, const std::string& profile, const RenderOptions&
           const std::string& algorithm) {
     const DeviceProfile& device = *find_profile(profile);
     const RenderResult result = render(list, chain_view, {profile, algorithm}, options);
-    INFO((result.refusal ? result.refusal->sentence(device) : std::string{}));
+    INFO((result.refusal ? result.refusal->message(device) : std::string{}));
     REQUIRE(result.outcome == Outcome::done);
     return {render_chain({list, chain_view, device, options}, chain), real_image(result.frame.color)};
 }

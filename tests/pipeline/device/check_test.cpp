@@ -14,17 +14,17 @@ namespace {
 const DeviceProfile& device(std::string_view name) { return *find_profile(name); }
 
 // The message of a rejection, or "" if the device supports the state.
-std::string sentence(std::string_view name, const Verdict& verdict) {
-    return verdict ? verdict->sentence(device(name)) : std::string{};
+std::string message(std::string_view name, const Verdict& verdict) {
+    return verdict ? verdict->message(device(name)) : std::string{};
 }
 
 template <class... State>
 std::string checked(std::string_view name, const State&... state) {
-    return sentence(name, check(device(name), state...));
+    return message(name, check(device(name), state...));
 }
 
 std::string checked_targets(std::string_view name, const std::vector<Blend>& targets) {
-    return sentence(name, check(device(name), std::span<const Blend>{targets}));
+    return message(name, check(device(name), std::span<const Blend>{targets}));
 }
 
 }  // namespace
@@ -107,7 +107,7 @@ TEST_CASE("two-sided stencil and unclamped depth clears are rejected where they 
 }
 
 TEST_CASE("sizes and samples and texture units beyond the device's are rejected with the number") {
-    CHECK(sentence("geforce3", check_size(device("geforce3"), 4097, 10)) ==
+    CHECK(message("geforce3", check_size(device("geforce3"), 4097, 10)) ==
           "profile geforce3 has no viewport of 4097 x 10 pixels; use geforce8, geforce8_dx101, ideal, llvmpipe, "
           "llvmpipe_sse, softpipe, swiftshader or direct3d11");
     CHECK_FALSE(check_size(device("geforce3"), 4096, 4096));
@@ -158,7 +158,9 @@ TEST_CASE("of several missing features the first is named and the ideal device m
         CHECK(has(device("ideal"), feature) == !nv2a.contains(feature));
 }
 
-TEST_CASE("an extension of the emulator is available on every profile and ordered read-modify-write on ideal and direct3d11 only") {
+TEST_CASE(
+    "an extension of the emulator is available on every profile and ordered read-modify-write on ideal and direct3d11 "
+    "only") {
     for (const DeviceProfile& profile : builtin_profiles()) {
         CHECK(has(profile, Feature::sequential_depth_units));
         CHECK(has(profile, Feature::ordered_rmw) == (profile.name == "ideal" || profile.name == "direct3d11"));

@@ -151,10 +151,10 @@ TEST_CASE(
         CHECK(check_size(p, 1, row.viewport + 1));
     }
     const DeviceProfile& geforce3 = device_named("geforce3");
-    CHECK(check_texture_units(geforce3, 17)->sentence(geforce3) ==
+    CHECK(check_texture_units(geforce3, 17)->message(geforce3) ==
           "profile geforce3 has no 17 texture units (ARB_multitexture); use llvmpipe, llvmpipe_sse, softpipe or "
           "swiftshader");
-    CHECK(check_samples(geforce3, 8)->sentence(geforce3) ==
+    CHECK(check_samples(geforce3, 8)->message(geforce3) ==
           "profile geforce3 has no 8 samples per pixel (ARB_multisample); use geforce8, geforce8_dx101, ideal or "
           "direct3d11");
     CHECK(check_samples(geforce3, 16)->way_out.empty());

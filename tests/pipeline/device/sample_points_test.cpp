@@ -21,7 +21,7 @@ using namespace strata::pipeline;
 
 [[nodiscard]] std::string refusal_of(const DeviceProfile& profile, int samples) {
     const Verdict refusal = check_multisampling(profile, samples);
-    return refusal ? refusal->sentence(profile) : "";
+    return refusal ? refusal->message(profile) : "";
 }
 [[nodiscard]] std::string refusal_of(std::string_view profile, int samples) {
     return refusal_of(*find_profile(profile), samples);

@@ -55,7 +55,7 @@ std::map<std::uint32_t, std::vector<std::uint32_t>> visited(const FragmentWaves&
 }
 
 BoundPlane codes_in(const std::vector<std::uint32_t>& plane, bool includes) {
-    return {plane.data(), includes, BoundPlane::Holds::codes, DepthFormat::d24};
+    return {plane.data(), includes, BoundPlane::Contents::codes, DepthFormat::d24};
 }
 
 using Fragment = GivenRecord::Fragment;
@@ -187,7 +187,7 @@ TEST_CASE("bounds that are binary32 depths or values of codes omit no fragment")
             const int which = random_int(random, 0, 9);
             values[p] = std::bit_cast<std::uint32_t>(which < 5 ? odd[which] : value(tile.entries[p]));
         }
-        const BoundPlane bound{values.data(), false, BoundPlane::Holds::values, DepthFormat::d24};
+        const BoundPlane bound{values.data(), false, BoundPlane::Contents::values, DepthFormat::d24};
         for (std::uint32_t p = 0; p < pixels; ++p)
             for (std::uint32_t code = 0; code < codes; ++code) {
                 const auto stored = std::bit_cast<float>(values[p]);
@@ -197,7 +197,7 @@ TEST_CASE("bounds that are binary32 depths or values of codes omit no fragment")
             }
         std::vector<std::uint32_t> depths(pixels);
         for (auto& depth : depths) depth = std::bit_cast<std::uint32_t>(random_float(random, -1, 1));
-        const BoundPlane depth{depths.data(), false, BoundPlane::Holds::depths, DepthFormat::d32f};
+        const BoundPlane depth{depths.data(), false, BoundPlane::Contents::depths, DepthFormat::d32f};
         for (std::uint32_t p = 0; p < pixels; ++p)
             wrong += depth.key(p) == ordered_code(std::bit_cast<float>(depths[p])) ? 0 : 1;
     }
@@ -262,7 +262,7 @@ struct Ranges {
         }
     }
     [[nodiscard]] KeyIntervals intervals() const {
-        return {.far = {BoundPlane{surface.data(), false, BoundPlane::Holds::depths, DepthFormat::d32f}, {}},
+        return {.far = {BoundPlane{surface.data(), false, BoundPlane::Contents::depths, DepthFormat::d32f}, {}},
                 .range_near = near.data(),
                 .range_far = far.data()};
     }

@@ -152,7 +152,7 @@ TEST_CASE("an alteration answers queries and receives names and sees nothing of 
     PassState state;
     state.color[0] = target;
     m.region.begin_iteration();
-    const Drawn drawn =
+    const DrawCounts drawn =
         m.region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) { out.color[0] = in.color; });
     CHECK_FALSE(m.region.any(drawn.passed, Idle::no));
     CHECK(asked == 8);

@@ -12,7 +12,7 @@
 
 namespace strata::testing {
 
-struct WhatIsLeft {
+struct RunResult {
     std::vector<std::uint32_t> codes;  // of the whole frame, ordered by target, channel and sample
     std::vector<pipeline::Diagnostic> diagnostics;
     std::uint64_t visited = 0;
@@ -39,13 +39,15 @@ inline void collect(pipeline::Region& region, std::vector<std::uint32_t>& codes)
     }
 }
 
-[[nodiscard]] inline WhatIsLeft run_one_way(const pipeline::Frame& frame, const pipeline::Body& body,
-                                            pipeline::Execution execution, const pipeline::Instruments& instruments) {
-    WhatIsLeft left;
-    pipeline::Watch watch;
-    watch.ended = [&](pipeline::Region& region, std::size_t, const pipeline::Image&) { collect(region, left.codes); };
+[[nodiscard]] inline RunResult run_one_way(const pipeline::Frame& frame, const pipeline::Body& body,
+                                           pipeline::Execution execution, const pipeline::Instruments& instruments) {
+    RunResult left;
+    pipeline::RegionCallbacks callbacks;
+    callbacks.ended = [&](pipeline::Region& region, std::size_t, const pipeline::Image&) {
+        collect(region, left.codes);
+    };
     try {
-        const pipeline::FrameResult result = run(frame, body, execution, 1, {}, instruments, watch);
+        const pipeline::FrameResult result = run(frame, body, execution, 1, {}, instruments, callbacks);
         left.diagnostics = result.diagnostics;
         left.visited = result.work.visited;
     } catch (const pipeline::Refused& refused) {
@@ -57,7 +59,7 @@ inline void collect(pipeline::Region& region, std::vector<std::uint32_t>& codes)
 }
 
 // Name of the first result in which tiled execution differs from literal execution; empty if there is none.
-[[nodiscard]] inline std::string difference_of(const WhatIsLeft& literal, const WhatIsLeft& tiled) {
+[[nodiscard]] inline std::string difference_of(const RunResult& literal, const RunResult& tiled) {
     if (literal.refusal != tiled.refusal) return "'" + literal.refusal + "' against '" + tiled.refusal + "'";
     if (!literal.refusal.empty()) return {};
     if (literal.codes != tiled.codes) return "codes";

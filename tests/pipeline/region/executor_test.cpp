@@ -156,10 +156,10 @@ void read_place(Region& region) {
     state.reads[0] = places;
     state.color[0] = sum;
     state.blend[0] = blend_mode::sum;
-    const auto program = [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    const auto program = [](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
-            const bool same = own.color(0)[0][i] == static_cast<float>(in.x[i]) / 255.0f &&
-                              own.color(0)[1][i] == static_cast<float>(in.y[i]) / 255.0f;
+            const bool same = loads.color(0)[0][i] == static_cast<float>(in.x[i]) / 255.0f &&
+                              loads.color(0)[1][i] == static_cast<float>(in.y[i]) / 255.0f;
             out.color[0][0][i] = same ? 1.0f / 255.0f : 0.0f;
             for (std::size_t c = 1; c < 4; ++c) out.color[0][c][i] = 0;
         }
@@ -374,13 +374,13 @@ TEST_CASE("a pass that the profile lacks throws Refused from every execution") {
         static_cast<void>(region.full_screen(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
     };
     for (const Execution execution : {Execution::literal, Execution::replay}) {
-        std::string sentence;
+        std::string message;
         try {
             static_cast<void>(execute(test, body, execution));
         } catch (const Refused& refused) {
-            sentence = refused.what();
+            message = refused.what();
         }
-        CHECK(sentence ==
+        CHECK(message ==
               "profile geforce8 has no ordered read-modify-write of render targets (STRATA_ordered_rmw); use ideal or "
               "direct3d11");
     }

@@ -91,7 +91,7 @@ TEST_CASE("a test that one pass may skip is made by the following quad") {
     const Body body = [](Region& region) {
         PassState state = colors_before_surface(region);
         draw_colors(region, state);
-        const Drawn drawn = region.full_screen(state, [](const FragmentBatch&, const Loads&, Outputs& out) {
+        const DrawCounts drawn = region.full_screen(state, [](const FragmentBatch&, const Loads&, Outputs& out) {
             out.replaces_depth = true;
             out.depth.fill(std::bit_cast<std::uint32_t>(1.0f));
             for (Lanes<float>& channel : out.color[0]) channel.fill(1.0f);

@@ -29,7 +29,7 @@ void marked_passes(Region& region) {
     state.alpha = {.enabled = true, .func = CompareFunc::always, .ref = tile_of(region.rect())};
     for (int pass = 0; pass < draws; ++pass) {
         region.begin_iteration();
-        const Drawn drawn =
+        const DrawCounts drawn =
             region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) { out.color[0] = in.color; });
         if (pass % 4 == 0) static_cast<void>(region.any(drawn.passed, Idle::no));
     }

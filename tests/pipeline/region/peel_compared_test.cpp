@@ -88,15 +88,16 @@ class Peel {
         state.needs.reference = true;
         const PrimitiveRange part{100, 700};
         if (step == Step::part) state.primitives = {&part, 1};
-        state.selection = {
-            .keeps = Keeps::nearest, .near = KeyBound::beyond(is_first ? Target{} : peeled_), .compared = compare_};
+        state.selection = {.keeps = KeptFragments::nearest,
+                           .near = KeyBound::beyond(is_first ? Target{} : peeled_),
+                           .compared = compare_};
         const float scale = step == Step::other_colors ? 0.5f : 1.0f;
-        static_cast<void>(region_.draw(state, [=, this](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        static_cast<void>(region_.draw(state, [=, this](const FragmentBatch& in, const Loads& loads, Outputs& out) {
             for (std::size_t c = 0; c < 4; ++c)
                 for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
                     out.color[0][c][i] = out.color[1][c][i] = (c < 3 ? scale : 1.0f) * in.color[c][i];
             for (std::size_t i = 0; i < static_cast<std::size_t>(in.count) && !is_first; ++i) {
-                if (compare_.is_behind(in.reference_code[i], in.reference_z[i], own.depth(0)[i])) continue;
+                if (compare_.is_behind(in.reference_code[i], in.reference_z[i], loads.depth(0)[i])) continue;
                 if (!by_alpha_)
                     out.discard(static_cast<int>(i));
                 else
@@ -111,11 +112,12 @@ class Peel {
         state.color[0] = sum_;
         state.blend[0] = blend_mode::over;
         state.reads[0] = peeled_;
-        state.selection = {.keeps = Keeps::interval, .near = KeyBound::at(peeled_), .far = {KeyBound::at(peeled_)}};
-        static_cast<void>(region_.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        state.selection = {
+            .keeps = KeptFragments::interval, .near = KeyBound::at(peeled_), .far = {KeyBound::at(peeled_)}};
+        static_cast<void>(region_.draw(state, [](const FragmentBatch& in, const Loads& loads, Outputs& out) {
             out.color[0] = in.color;
             for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
-                if (in.code[i] != own.depth(0)[i]) out.discard(static_cast<int>(i));
+                if (in.code[i] != loads.depth(0)[i]) out.discard(static_cast<int>(i));
         }));
     }
 
@@ -126,7 +128,7 @@ class Peel {
         state.blend[0] = blend_mode::over;
         state.reads[0] = color_;
         static_cast<void>(region_.full_screen(
-            state, [](const FragmentBatch&, const Loads& own, Outputs& out) { out.color[0] = own.color(0); }));
+            state, [](const FragmentBatch&, const Loads& loads, Outputs& out) { out.color[0] = loads.color(0); }));
     }
 
     Region& region_;
@@ -149,8 +151,8 @@ struct Compared {
         if (quantizes) test.frame.epsilon.ulps = 1;
         test.frame.replay = {std::uint64_t{1} << 20, {.reference = true}};
     }
-    [[nodiscard]] WhatIsLeft run(const Walk<Step>& walk, Execution execution,
-                                 const Instruments& instruments = {}) const {
+    [[nodiscard]] RunResult run(const Walk<Step>& walk, Execution execution,
+                                const Instruments& instruments = {}) const {
         const Body body = [&](Region& region) { Peel{region, walk}.run(); };
         return run_one_way(test.frame, body, execution, instruments);
     }
@@ -165,7 +167,7 @@ TEST_CASE("a peel whose fragments are behind themselves gives the same result as
         const Compared peel{any_layers(random), round % 4 == 0 ? "softpipe" : "ideal", round % 5 == 0};
         const Walk<Step> walk = random_walk(random, 16, Step::other_colors);
         INFO("round " << round);
-        const WhatIsLeft literal = peel.run(walk, Execution::literal);
+        const RunResult literal = peel.run(walk, Execution::literal);
         REQUIRE(literal.refusal.empty());
         REQUIRE(difference_of(literal, peel.run(walk, Execution::replay, {.check_selections = true})) == "");
         REQUIRE(difference_of(literal, peel.run(walk, Execution::replay)) == "");

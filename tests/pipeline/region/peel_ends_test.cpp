@@ -86,13 +86,13 @@ class Peel {
         state.reads = {range_, surface_};
         state.needs.code = false;
         state.selection = {
-            .keeps = Keeps::ends, .outside = outside_, .far = {KeyBound::beyond(surface_)}, .range = range_};
+            .keeps = KeptFragments::ends, .outside = outside_, .far = {KeyBound::beyond(surface_)}, .range = range_};
         const bool discards = outside_ == Outside::dies;
         const float others = static_cast<float>(++passes_) / 32.0f;
-        static_cast<void>(region_.draw(state, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        static_cast<void>(region_.draw(state, [=](const FragmentBatch& in, const Loads& loads, Outputs& out) {
             for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
-                const float z = in.shader_z[i], near = -own.color(0)[0][i], far = own.color(0)[1][i];
-                const bool is_inside = z < std::bit_cast<float>(own.depth(1)[i]) && z >= near && z <= far;
+                const float z = in.shader_z[i], near = -loads.color(0)[0][i], far = loads.color(0)[1][i];
+                const bool is_inside = z < std::bit_cast<float>(loads.depth(1)[i]) && z >= near && z <= far;
                 const bool is_near = is_inside && z == near, is_between = is_inside && z != near && z != far;
                 const float left = scale * z;
                 out.color[0][0][i] = is_between ? -left : -1.0f;
@@ -118,7 +118,7 @@ std::string difference_of_walk(const Walk<Step>& walk, const FragmentScene& scen
     test.frame.key = DepthKey::shader_z;
     test.frame.replay = {std::uint64_t{1} << 20, {}};
     const Body body = [&](Region& region) { Peel{region, walk}.run(); };
-    const WhatIsLeft literal = run_one_way(test.frame, body, Execution::literal, {});
+    const RunResult literal = run_one_way(test.frame, body, Execution::literal, {});
     REQUIRE(literal.refusal.empty());
     const std::string checked =
         difference_of(literal, run_one_way(test.frame, body, Execution::replay, {.check_selections = true}));

@@ -113,13 +113,13 @@ class Peel {
         state.color[0] = color_;
         state.reads[0] = peeled_;
         state.primitives = part();
-        state.selection = {.keeps = Keeps::nearest, .least = least_, .most = most_};
+        state.selection = {.keeps = KeptFragments::nearest, .least = least_, .most = most_};
         if (!is_first) state.selection.near = KeyBound::beyond(peeled_);
-        static_cast<void>(region_.draw(state, [=, this](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        static_cast<void>(region_.draw(state, [=, this](const FragmentBatch& in, const Loads& loads, Outputs& out) {
             out.color[0] = in.color;
             for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
                 const bool is_inside = in.code[i] >= least_ && in.code[i] <= most_;
-                if (!is_inside || (!is_first && in.code[i] <= own.depth(0)[i])) out.discard(static_cast<int>(i));
+                if (!is_inside || (!is_first && in.code[i] <= loads.depth(0)[i])) out.discard(static_cast<int>(i));
             }
         }));
     }
@@ -130,11 +130,12 @@ class Peel {
         state.blend[0] = blend_mode::over;
         state.reads[0] = peeled_;
         state.primitives = part();
-        state.selection = {.keeps = Keeps::interval, .near = KeyBound::at(peeled_), .far = {KeyBound::at(peeled_)}};
-        static_cast<void>(region_.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        state.selection = {
+            .keeps = KeptFragments::interval, .near = KeyBound::at(peeled_), .far = {KeyBound::at(peeled_)}};
+        static_cast<void>(region_.draw(state, [](const FragmentBatch& in, const Loads& loads, Outputs& out) {
             out.color[0] = in.color;
             for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
-                if (in.code[i] != own.depth(0)[i]) out.discard(static_cast<int>(i));
+                if (in.code[i] != loads.depth(0)[i]) out.discard(static_cast<int>(i));
         }));
     }
 
@@ -152,7 +153,7 @@ std::string difference_of_walk(const Walk& walk, const FragmentScene& scene, Dep
     test.frame.depth.format = format;
     test.frame.replay = {bytes, {}};
     const Body body = [&](Region& region) { Peel{region, walk}.run(); };
-    const WhatIsLeft literal = run_one_way(test.frame, body, Execution::literal, {});
+    const RunResult literal = run_one_way(test.frame, body, Execution::literal, {});
     const std::string checked =
         difference_of(literal, run_one_way(test.frame, body, Execution::replay, {.check_selections = true}));
     return checked + difference_of(literal, run_one_way(test.frame, body, Execution::replay, {}));
@@ -182,11 +183,11 @@ TEST_CASE("a peel without irregular passes visits a fragment once") {
     const Walk plain{{Step::first, Step::next, Step::next, Step::next, Step::next, Step::next}, 1};
     TestFrame test{scene, "ideal"};
     test.frame.replay = {std::uint64_t{1} << 20, {}};
-    const WhatIsLeft tiled = run_one_way(test.frame,
-                                         [&](Region& region) {
-                                             Peel{region, plain}.run();
-                                         },
-                                         Execution::replay, {});
+    const RunResult tiled = run_one_way(test.frame,
+                                        [&](Region& region) {
+                                            Peel{region, plain}.run();
+                                        },
+                                        Execution::replay, {});
     CHECK(tiled.visited > 0);
     CHECK(tiled.visited <= fragments);
 }

@@ -27,7 +27,7 @@ TEST_CASE("depths that a full-screen program replaces are compared and written l
     PassState state;
     state.depth = {.enabled = true, .func = CompareFunc::greater, .write = true};
     state.depth_target = depth;
-    const Drawn drawn = m.region.full_screen(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
+    const DrawCounts drawn = m.region.full_screen(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
         out.replaces_depth = true;
         for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
             out.depth[i] = std::bit_cast<std::uint32_t>(in.pixel[i] == 3 ? 0.75f : 0.25f);
@@ -48,7 +48,7 @@ TEST_CASE("a depth beyond the range is compared with all its bits and stored wit
         PassState state;
         state.depth = {.enabled = true, .func = func, .write = true};
         state.depth_target = depth;
-        const Drawn drawn = region.full_screen(state, [](const FragmentBatch&, const Loads&, Outputs& out) {
+        const DrawCounts drawn = region.full_screen(state, [](const FragmentBatch&, const Loads&, Outputs& out) {
             out.replaces_depth = true;
             out.depth.fill(0xffffffffu);  // one code below 0
         });

@@ -102,7 +102,7 @@ TEST_CASE(
         state.depth_target = depth;
         region.clear(depth, {.depth = 1.0f});
         state.color[0] = copy;
-        const Drawn drawn = region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
+        const DrawCounts drawn = region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
             out.color[0] = in.color;
             for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
                 out.side[i] = Side::front;
@@ -141,7 +141,7 @@ TEST_CASE("empty tiles with diagnostics run one by one and a second list fills a
     FragmentScene right{32, 8};
     right.pixels[31].fragments = {{0.5f, {1, 1, 1, 1}}};
     TestFrame test{corner, "geforce8"}, other{right, "geforce8"};
-    test.frame.alike_where_blank = true;
+    test.frame.blank_tiles_are_equal = true;
     int bodies = 0;
     const auto count_bodies = [&](bool reports) {
         bodies = 0;

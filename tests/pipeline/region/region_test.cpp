@@ -101,7 +101,7 @@ TEST_CASE("a sample mask restricts writes and clears and the query to its sample
     PassState state;
     state.color[0] = color;
     state.sample_mask = 0b0101;
-    const Drawn drawn = m.region.draw(state, pass_color);
+    const DrawCounts drawn = m.region.draw(state, pass_color);
     const std::array<float, 4> expected{2, 5, 2, 6};
     for (int s = 0; s < 4; ++s)
         CHECK(std::bit_cast<float>(m.region.storage(color).code(2, 0, s)) == expected[static_cast<std::size_t>(s)]);
@@ -153,8 +153,8 @@ TEST_CASE("a depth unit tests each sample separately and has as many samples as 
 
 TEST_CASE("a target that is read and written in one pass is an error and works only with ordered_rmw") {
     Machine device{stacks({4}), "geforce8"}, ideal{stacks({0, 4, 2}), "ideal"};
-    const auto add_red = [](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        out.color[0] = own.color(0);
+    const auto add_red = [](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        out.color[0] = loads.color(0);
         for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) out.color[0][0][i] += 1.0f;
     };
     const auto loop = [](Region& region, bool ordered) {
@@ -289,7 +289,7 @@ TEST_CASE("a stencil count that saturates in a routing pass is not a fault") {
     PassState state;
     state.stencil = every_fragment(StencilOp::incr);
     state.stencil_target = m.region.make(Format::s8);
-    state.selection.keeps = Keeps::submitted;
+    state.selection.keeps = KeptFragments::submitted;
     static_cast<void>(m.region.draw(state, write_nothing));
     CHECK(stencil_of(m.region, state.stencil_target, 0) == 255);
     CHECK(m.statistics.diagnostics.empty());
@@ -315,8 +315,8 @@ TEST_CASE("a channel that a read target lacks is 0 and alpha is 1") {
     PassState state;
     state.reads[0] = one;
     state.color[0] = out;
-    static_cast<void>(
-        m.region.draw(state, [](const FragmentBatch&, const Loads& own, Outputs& o) { o.color[0] = own.color(0); }));
+    static_cast<void>(m.region.draw(
+        state, [](const FragmentBatch&, const Loads& loads, Outputs& o) { o.color[0] = loads.color(0); }));
     for (const std::uint32_t p : {0u, 1u, 3u}) CHECK(m.region.targets().color(out, p) == Rgba{0.375f, 0, 0, 1});
 }
 
@@ -344,7 +344,7 @@ TEST_CASE("a program reads an 8-bit code as the profile converts it by a quotien
         state.color[0] = values;
         state.reads = {codes};
         static_cast<void>(m.region.full_screen(
-            state, [](const FragmentBatch&, const Loads& own, Outputs& out) { out.color[0] = own.color(0); }));
+            state, [](const FragmentBatch&, const Loads& loads, Outputs& out) { out.color[0] = loads.color(0); }));
         const auto found = m.region.targets().image(values).codes;
         // A binary32 times a code has at most 32 bits: binary64 represents the product exactly, and the cast rounds it
         // once.

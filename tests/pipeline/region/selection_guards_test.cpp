@@ -47,7 +47,7 @@ DrawList layered_list() {
 
 // A kind of pass: its input targets and its state.
 struct Stage {
-    Keeps keeps;
+    KeptFragments keeps;
     int samples = 1;
     const StencilFace* face = nullptr;
     DepthTest depth{};
@@ -61,12 +61,12 @@ struct Stage {
 constexpr DepthTest any_stays{.enabled = true, .func = CompareFunc::always, .write = true};
 
 const std::vector<Stage> stages{
-    {.keeps = Keeps::nearest, .depth = nearest_stays},
-    {.keeps = Keeps::interval, .blend = blend_mode::over, .least = 0x3f400000},
-    {.keeps = Keeps::interval, .face = &counts_updates, .depth = nearest_stays, .least = 0x3f400000},
-    {.keeps = Keeps::submitted, .samples = 4, .face = &routes, .depth = any_stays},
-    {.keeps = Keeps::ends, .blend = blend_mode::max, .color = Format::rg32f, .outside = Outside::writes_alike},
-    {.keeps = Keeps::interval,
+    {.keeps = KeptFragments::nearest, .depth = nearest_stays},
+    {.keeps = KeptFragments::interval, .blend = blend_mode::over, .least = 0x3f400000},
+    {.keeps = KeptFragments::interval, .face = &counts_updates, .depth = nearest_stays, .least = 0x3f400000},
+    {.keeps = KeptFragments::submitted, .samples = 4, .face = &routes, .depth = any_stays},
+    {.keeps = KeptFragments::ends, .blend = blend_mode::max, .color = Format::rg32f, .outside = Outside::writes_alike},
+    {.keeps = KeptFragments::interval,
      .blend = blend_mode::under,
      .least = 0x3f400000,
      .outside = Outside::writes_alike,
@@ -78,13 +78,13 @@ const std::vector<Stage> stages{
 struct StageProgram {
     const Stage& stage;
     DepthKey key;
-    void operator()(const FragmentBatch& in, const Loads& own, Outputs& out) const {
+    void operator()(const FragmentBatch& in, const Loads& loads, Outputs& out) const {
         for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
             const bool is_inside = key == DepthKey::shader_z
-                                       ? in.shader_z[i] < std::bit_cast<float>(own.depth(0)[i])
-                                       : in.code[i] >= stage.least && in.code[i] < own.depth(0)[i];
+                                       ? in.shader_z[i] < std::bit_cast<float>(loads.depth(0)[i])
+                                       : in.code[i] >= stage.least && in.code[i] < loads.depth(0)[i];
             for (std::size_t c = 0; c < 4; ++c) out.color[1][c][i] = 0.5f;
-            if (stage.keeps == Keeps::ends) {
+            if (stage.keeps == KeptFragments::ends) {
                 out.color[0][0][i] = is_inside ? -in.shader_z[i] : -1.0f;
                 out.color[0][1][i] = is_inside ? in.shader_z[i] : -1.0f;
                 continue;
@@ -117,7 +117,7 @@ void draw_stage(Region& region, const Stage& stage, const Changed& change) {
         state.stencil = {.enabled = true, .front = *stage.face, .back = {}};
         state.stencil_target = region.make(Format::s8, stage.samples);
         region.clear(state.stencil_target, {.stencil = 0});
-        for (int s = 0; stage.keeps == Keeps::submitted && s < stage.samples; ++s)
+        for (int s = 0; stage.keeps == KeptFragments::submitted && s < stage.samples; ++s)
             region.clear(state.stencil_target, {.stencil = static_cast<std::uint8_t>(s + 2)},
                          static_cast<std::uint8_t>(1u << s));
     }
@@ -136,7 +136,7 @@ void draw_stage(Region& region, const Stage& stage, const Changed& change) {
 }
 
 struct Ways {
-    WhatIsLeft literal, tiled;
+    RunResult literal, tiled;
 };
 
 Ways both_ways(const Stage& stage, const Changed& change, const std::function<void(Frame&)>& reframe = {},
@@ -208,7 +208,7 @@ TEST_CASE("instruments that measure and check a pass do not change its result", 
           Effect::alpha_test, Effect::stencil_test, Effect::depth_test, Effect::blending})
         all.push_back({.once_more = effect});
     for (std::size_t number = 0; number < stages.size(); ++number) {
-        const WhatIsLeft plain = both_ways(stages[number], [](PassState&, Region&) {}).literal;
+        const RunResult plain = both_ways(stages[number], [](PassState&, Region&) {}).literal;
         for (std::size_t k = 0; k < all.size(); ++k) {
             const Ways ways = both_ways(
                 stages[number], [](PassState&, Region&) {}, {}, all[k]);

@@ -95,7 +95,7 @@ Target value_bounds(Region& region, std::uint32_t salt) {
     return made;
 }
 
-void draw_window(Region& region, unsigned bounds, Keeps keeps) {
+void draw_window(Region& region, unsigned bounds, KeptFragments keeps) {
     const DepthFormat format = region.frame().key_request().format;
     PassState state;
     FragmentSelection& s = state.selection;
@@ -114,7 +114,7 @@ void draw_window(Region& region, unsigned bounds, Keeps keeps) {
     for (const auto& [which, salt] : {std::pair{before, 3u}, {also_before, 4u}, {up_to, 5u}, {before_value, 8u}})
         bound(which, s.far[s.far[0].exists() ? 1 : 0], salt);
     // Codes of an interval are not raised: a selection of another kind would visit every fragment.
-    const std::uint32_t raised = (bounds & behind) != 0 && keeps == Keeps::nearest ? 3 : 0;
+    const std::uint32_t raised = (bounds & behind) != 0 && keeps == KeptFragments::nearest ? 3 : 0;
     state.needs.reference = raised > 0;
     if (raised > 0) s.compared = DepthCompare{.format = format, .epsilon = {.ulps = static_cast<int>(raised)}};
     if ((bounds & keys) != 0) {
@@ -122,7 +122,7 @@ void draw_window(Region& region, unsigned bounds, Keeps keeps) {
         s.most = as_code(0.75f, format);
     }
     state.color[0] = region.make(Format::rgba32f);
-    if (keeps == Keeps::nearest) {
+    if (keeps == KeptFragments::nearest) {
         state.depth = nearest_stays;
         state.depth_target = region.make_depth();
         region.clear(state.depth_target, {.depth = 1.0f});
@@ -130,7 +130,7 @@ void draw_window(Region& region, unsigned bounds, Keeps keeps) {
         state.blend[0] = blend_mode::over;
     }
     const FragmentSelection interval = s;
-    static_cast<void>(region.draw(state, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    static_cast<void>(region.draw(state, [=](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         out.color[0] = in.color;
         for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
             const std::uint32_t code = in.code[i];
@@ -139,10 +139,10 @@ void draw_window(Region& region, unsigned bounds, Keeps keeps) {
             for (std::size_t r = 0; r < made.size(); ++r) {
                 const unsigned which = made[r].first;
                 const auto read = static_cast<int>(r);
-                if (which == behind_value) is_inside &= value > own.color(read)[0][i];
-                if (which == before_value) is_inside &= value < own.color(read)[0][i];
+                if (which == behind_value) is_inside &= value > loads.color(read)[0][i];
+                if (which == before_value) is_inside &= value < loads.color(read)[0][i];
                 if ((which & (behind_value | before_value)) != 0) continue;
-                const std::uint32_t stored = own.depth(read)[i];
+                const std::uint32_t stored = loads.depth(read)[i];
                 if (which == behind) is_inside &= code > std::min(stored + raised, max_code(format));
                 if (which == from) is_inside &= code >= stored;
                 if (which == before || which == also_before) is_inside &= code < stored;
@@ -154,13 +154,13 @@ void draw_window(Region& region, unsigned bounds, Keeps keeps) {
     region.publish(region.opaque_color());
 }
 
-std::string window_difference(DepthFormat format, unsigned bounds, Keeps keeps) {
+std::string window_difference(DepthFormat format, unsigned bounds, KeptFragments keeps) {
     TestFrame test{window_scene(), "ideal"};
     test.frame.depth.format = format;
     test.frame.replay = {std::uint64_t{1} << 20, {}};
     const Body body = [&](Region& region) { draw_window(region, bounds, keeps); };
     const Instruments checks{.check_selections = true};
-    const WhatIsLeft literal = run_one_way(test.frame, body, Execution::literal, {});
+    const RunResult literal = run_one_way(test.frame, body, Execution::literal, {});
     const std::string checked = difference_of(literal, run_one_way(test.frame, body, Execution::replay, checks));
     return checked + difference_of(literal, run_one_way(test.frame, body, Execution::replay, {}));
 }
@@ -171,7 +171,7 @@ TEST_CASE("an interval is the fragments between its bounds for every kind of bou
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f})
         for (unsigned a = 1; a <= keys; a *= 2)
             for (unsigned b = a; b <= keys; b *= 2)
-                for (const Keeps keeps : {Keeps::interval, Keeps::nearest}) {
+                for (const KeptFragments keeps : {KeptFragments::interval, KeptFragments::nearest}) {
                     if (a != b && ((a | b) & near_bounds) == (a | b)) continue;  // at most one near bound
                     INFO("format " << static_cast<int>(format) << ", bounds " << (a | b));
                     CHECK(window_difference(format, a | b, keeps) == "");
@@ -216,16 +216,16 @@ std::string reference_difference(const Changed& change, std::uint64_t bytes = st
         state.reads = {peeled, region.opaque_depth()};
         state.needs.reference = true;
         state.selection = {
-            .keeps = Keeps::nearest,
+            .keeps = KeptFragments::nearest,
             .near = KeyBound::beyond(peeled),
             .compared = DepthCompare{.format = DepthFormat::d24, .epsilon = {.ulps = 2}, .has_reference = true}};
         change(state, region);
         const FragmentSelection interval = state.selection;
-        static_cast<void>(region.draw(state, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        static_cast<void>(region.draw(state, [=](const FragmentBatch& in, const Loads& loads, Outputs& out) {
             out.color[0] = in.color;
             for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
-                if (in.reference_code[i] <= own.depth(0)[i] + 2 || in.code[i] > interval.most ||
-                    (interval.far[0].exists() && in.code[i] >= own.depth(1)[i] + (interval.far[0].includes ? 1 : 0)))
+                if (in.reference_code[i] <= loads.depth(0)[i] + 2 || in.code[i] > interval.most ||
+                    (interval.far[0].exists() && in.code[i] >= loads.depth(1)[i] + (interval.far[0].includes ? 1 : 0)))
                     out.discard(static_cast<int>(i));
         }));
         region.publish(region.opaque_color());

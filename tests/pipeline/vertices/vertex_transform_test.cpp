@@ -15,9 +15,9 @@ namespace {
 
 using namespace strata::testing;
 using namespace strata::pipeline;
-using strata::rasterizer::cut_to_bits;
 using strata::rasterizer::nearest_float;
 using strata::rasterizer::Rational;
+using strata::rasterizer::truncate_to_bits;
 
 constexpr std::array paths{VertexPath::separate,         VertexPath::fused,       VertexPath::reassociated,
                            VertexPath::double_precision, VertexPath::toward_zero, VertexPath::nv20};
@@ -34,7 +34,7 @@ constexpr std::array paths{VertexPath::separate,         VertexPath::fused,     
 
 [[nodiscard]] float near(const Rational& v) { return nearest_float(v); }
 [[nodiscard]] float down(const Rational& v) {
-    const Rational size = abs(cut_to_bits(v, 24));
+    const Rational size = abs(truncate_to_bits(v, 24));
     return v < 0 ? -nearest_float(size) : nearest_float(size);
 }
 

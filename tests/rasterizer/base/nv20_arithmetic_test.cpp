@@ -17,7 +17,7 @@ constexpr float largest_float = 0x1.fffffep127f;
 // v truncated to 24 bits toward zero; below the normal range +0, above it the largest value.
 [[nodiscard]] float model_cut(const Rational& v) {
     if (v == 0 || abs(v) < power(-126)) return 0.0f;
-    const float f = abs(v) >= power(128) ? largest_float : nearest_float(abs(cut_to_bits(v, 24)));
+    const float f = abs(v) >= power(128) ? largest_float : nearest_float(abs(truncate_to_bits(v, 24)));
     return v < 0 ? -f : f;
 }
 
@@ -30,7 +30,7 @@ template <std::size_t n>
         if (model_value(v) != 0) top = std::max(top, floor_log2(abs(Rational{v})));
     Rational sum{0};
     for (const float v : addends)
-        if (model_value(v) != 0) sum += cut(Rational{v}, top + 2 - 23 - 7);
+        if (model_value(v) != 0) sum += truncate(Rational{v}, top + 2 - 23 - 7);
     return model_cut(sum);
 }
 

@@ -31,11 +31,11 @@ constexpr FragmentNeeds colors{false, false, false, true, false, false};
     std::array<Rational, 3> b = barycentric(t.p, x, y, bits);
     Rational area{abs(doubled_area(t.p[0], t.p[1], t.p[2]))};
     if (!exact_weights) {
-        for (Rational& w : b) w = cut_to_bits(w * area, 24);
+        for (Rational& w : b) w = truncate_to_bits(w * area, 24);
         const Rational sum = b[0] + b[1] + b[2];
         const bool is_power = sum == power(floor_log2(sum));
-        const Rational r = cut_to_bits((is_power ? Rational{1} : 1 - power(-31)) / sum, 29);
-        for (Rational& w : b) w = cut_to_bits(w * r, 24);
+        const Rational r = truncate_to_bits((is_power ? Rational{1} : 1 - power(-31)) / sum, 29);
+        for (Rational& w : b) w = truncate_to_bits(w * r, 24);
         const std::size_t rest = remainder_vertex(b);
         b[rest] = 1 - b[(rest + 1) % 3] - b[(rest + 2) % 3];
     }

@@ -37,7 +37,7 @@ using Shares = std::array<Rational, 3>;
 // The chip's reciprocal r of the sum as binary64: slightly low unless the sum is a power of two, truncated to 29 bits.
 [[nodiscard]] Rational low_reciprocal(const Rational& sum) {
     const Rational held = to_53_bits(sum), exact = to_53_bits(Rational{1} / held);
-    return held == power(floor_log2(held)) ? exact : cut_to_bits(to_53_bits(exact * (1 - power(-31))), 29);
+    return held == power(floor_log2(held)) ? exact : truncate_to_bits(to_53_bits(exact * (1 - power(-31))), 29);
 }
 
 // By the rule of the w buffer, with every step truncated.
@@ -45,14 +45,14 @@ using Shares = std::array<Rational, 3>;
     Shares p;
     int largest = -9999;
     for (std::size_t i = 0; i < 3; ++i) {
-        p[i] = cut_to_bits(Rational{e[i]}, 24) * cut_to_bits(Rational{1} / Rational{w[i]}, 24);
+        p[i] = truncate_to_bits(Rational{e[i]}, 24) * truncate_to_bits(Rational{1} / Rational{w[i]}, 24);
         if (p[i] != 0) largest = std::max(largest, floor_log2(p[i]));
     }
     // Complete products, aligned to 29 bits of the largest, are added; the weights use 25 bits of each.
     Rational sum{0};
     for (const Rational& each : p) sum += Rational{floor(Rational{each / power(largest - 28)})} * power(largest - 28);
     const Rational r = low_reciprocal(sum);
-    for (Rational& each : p) each = cut_to_bits(cut_to_bits(each, 25) * r, 24);
+    for (Rational& each : p) each = truncate_to_bits(truncate_to_bits(each, 25) * r, 24);
     return p;
 }
 
@@ -61,18 +61,18 @@ using Shares = std::array<Rational, 3>;
     if (rule == PerspectiveColor::cut_products) return cut_shares_of(e, w);
     const bool by_weights = rule == PerspectiveColor::weight_products;
     Shares cut;
-    for (std::size_t i = 0; i < 3; ++i) cut[i] = cut_to_bits(Rational{e[i]}, 24);
+    for (std::size_t i = 0; i < 3; ++i) cut[i] = truncate_to_bits(Rational{e[i]}, 24);
     const Rational reciprocal = low_reciprocal(cut[0] + cut[1] + cut[2]);
     Shares p;
     for (std::size_t i = 0; i < 3; ++i) {
         p[i] = Rational{e[i]};
-        if (by_weights) p[i] = cut_to_bits(cut[i] * reciprocal, 24);
+        if (by_weights) p[i] = truncate_to_bits(cut[i] * reciprocal, 24);
         p[i] = to_53_bits(p[i] * Rational{inverse_w[i]});
-        if (by_weights) p[i] = cut_to_bits(p[i], 24);
+        if (by_weights) p[i] = truncate_to_bits(p[i], 24);
     }
     Rational r = to_53_bits(Rational{1} / to_53_bits(to_53_bits(p[0] + p[1]) + p[2]));
-    if (by_weights) r = cut_to_bits(r, 28);
-    for (Rational& each : p) each = cut_to_bits(to_53_bits(each * r), 24);
+    if (by_weights) r = truncate_to_bits(r, 28);
+    for (Rational& each : p) each = truncate_to_bits(to_53_bits(each * r), 24);
     return p;
 }
 
@@ -97,7 +97,7 @@ using Shares = std::array<Rational, 3>;
     for (std::size_t c = 0; c < 4; ++c) {
         std::array<Integer, 3> v;
         for (std::size_t i = 0; i < 3; ++i)
-            v[i] = floor(cut_to_bits(Rational{t.attribute[i][c]}, leading_bits) * 255 + Rational{1, 2});
+            v[i] = floor(truncate_to_bits(Rational{t.attribute[i][c]}, leading_bits) * 255 + Rational{1, 2});
         codes[c] = floor(Rational{w0 * v[0] + w1 * v[1] + w2 * v[2] + 128, 256}).convert_to<int>();
     }
     return codes;
@@ -217,7 +217,7 @@ TEST_CASE("a vertex colour keeps as many leading bits as the hypothesis says and
     for (int n = 0; n < 4000; ++n) {
         const float c = n % 3 == 0 ? random_float(random, 0, 0x1p-6f) : random_float(random, 0, 1);
         for (int leading = 9; leading <= 24; ++leading) {
-            const Integer code = floor(cut_to_bits(Rational{c}, leading) * 255 + Rational{1, 2});
+            const Integer code = floor(truncate_to_bits(Rational{c}, leading) * 255 + Rational{1, 2});
             wrong += Integer{to_color_code(c, leading)} != code ? 1 : 0;
         }
     }

@@ -38,15 +38,15 @@ using Three = std::array<Rational, 3>;
     Three b;
     int largest = -9999;
     for (std::size_t i = 0; i < 3; ++i) {
-        b[i] = cut_to_bits(Rational{e[i]}, 24) * cut_to_bits(1 / Rational{w[i]}, 24);
+        b[i] = truncate_to_bits(Rational{e[i]}, 24) * truncate_to_bits(1 / Rational{w[i]}, 24);
         if (b[i] != 0) largest = std::max(largest, floor_log2(b[i]));
     }
     // The adder aligns complete products to 29 bits of the largest; the weights use 25 bits of each.
-    const Rational sum = cut(b[0], largest - 28) + cut(b[1], largest - 28) + cut(b[2], largest - 28);
+    const Rational sum = truncate(b[0], largest - 28) + truncate(b[1], largest - 28) + truncate(b[2], largest - 28);
     const Rational inverse = nearest_53(1 / sum);
     const bool is_power = sum == power(floor_log2(sum));
-    const Rational r = is_power ? inverse : cut_to_bits(nearest_53(inverse * (1 - power(-31))), 29);
-    for (Rational& each : b) each = cut_to_bits(cut_to_bits(each, 25) * r, 24);
+    const Rational r = is_power ? inverse : truncate_to_bits(nearest_53(inverse * (1 - power(-31))), 29);
+    for (Rational& each : b) each = truncate_to_bits(truncate_to_bits(each, 25) * r, 24);
     const std::size_t rest = corner_of_the_rest(b);
     b[rest] = nearest_53(1 - nearest_53(b[(rest + 1) % 3] + b[(rest + 2) % 3]));
     const Rational base{w[1]}, p0 = nearest_53(b[0] * (Rational{w[0]} - base)),
@@ -54,7 +54,7 @@ using Three = std::array<Rational, 3>;
     int ex = floor_log2(base);
     for (const Rational& p : {p0, p2})
         if (p != 0) ex = std::max(ex, floor_log2(abs(p)));
-    return cut_to_bits(base + cut(p0, ex - 28) + cut(p2, ex - 28), 24);
+    return truncate_to_bits(base + truncate(p0, ex - 28) + truncate(p2, ex - 28), 24);
 }
 
 [[nodiscard]] Geometry w_geometry(const SetupTriangle& t, DepthFormat format, float scale) {

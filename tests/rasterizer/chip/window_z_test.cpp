@@ -19,13 +19,13 @@ constexpr int window_bits = 4;
 [[nodiscard]] std::array<Rational, 3> model_weights(const std::array<Rational, 3>& e, const DepthHypothesis& h) {
     std::array<Rational, 3> b = e;
     if (h.weights == WeightRule::cut_edges)
-        for (Rational& each : b) each = cut_to_bits(each, 24);
+        for (Rational& each : b) each = truncate_to_bits(each, 24);
     const Rational sum = b[0] + b[1] + b[2];  // for WeightRule::area it is the area
     const Rational low = h.weights == WeightRule::area || sum == power(floor_log2(sum))
                              ? Rational{1}
                              : 1 - h.reciprocal_deficit * power(-32);
-    const Rational r = cut_to_bits(low / sum, h.reciprocal_bits);
-    for (Rational& each : b) each = cut_to_bits(each * r, 24);
+    const Rational r = truncate_to_bits(low / sum, h.reciprocal_bits);
+    for (Rational& each : b) each = truncate_to_bits(each * r, 24);
     return b;
 }
 
@@ -51,13 +51,13 @@ constexpr int window_bits = 4;
     }
     Rational sum = base;
     for (std::size_t i = 0; i < 3; ++i)
-        if (i != reference && product[i] != 0) sum += cut(product[i], largest - (h.sum_bits - 1));
+        if (i != reference && product[i] != 0) sum += truncate(product[i], largest - (h.sum_bits - 1));
     return sum;
 }
 
 [[nodiscard]] Integer model_window_z(const std::array<SubpixelPoint, 3>& p, const std::array<float, 3>& z, int x, int y,
                                      int subpixel_bits, const DepthHypothesis& h = {}) {
-    return floor(cut_to_bits(model_sum(p, z, x, y, subpixel_bits, h), 24));
+    return floor(truncate_to_bits(model_sum(p, z, x, y, subpixel_bits, h), 24));
 }
 
 [[nodiscard]] Geometry geometry_of(const std::vector<SetupTriangle>& triangles, int width, int height,
@@ -233,7 +233,7 @@ TEST_CASE("where two corners have depth 0 the sum is the rule's for any small de
             for (int x = 0; x < 12; ++x) {
                 const EdgeValues e = edges.at(pixel_centre(x, y, window_bits));
                 if (std::min({e[0], e[1], e[2]}) < 0) continue;
-                wrong += Rational{rule.value(e)} != cut_to_bits(model_sum(p, z, x, y, window_bits), 24) ? 1 : 0;
+                wrong += Rational{rule.value(e)} != truncate_to_bits(model_sum(p, z, x, y, window_bits), 24) ? 1 : 0;
                 ++fragments;
             }
     }

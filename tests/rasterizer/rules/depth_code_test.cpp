@@ -101,8 +101,8 @@ TEST_CASE("product_floor truncates the binary32 product for 16 bits and the exac
     CHECK(unlike_floor > 100);
     CHECK(to_depth_code(2.0f, DepthFormat::d16, DepthRounding::product_floor) == 0xffffu);
     CHECK(to_depth_code(std::bit_cast<float>(0x7fc00000u), DepthFormat::d16, DepthRounding::product_floor) == 0);
-    CHECK((cuts(DepthRounding::floor) && cuts(DepthRounding::product_floor)));
-    CHECK((!cuts(DepthRounding::nearest) && !cuts(DepthRounding::product_even)));
+    CHECK((truncates(DepthRounding::floor) && truncates(DepthRounding::product_floor)));
+    CHECK((!truncates(DepthRounding::nearest) && !truncates(DepthRounding::product_even)));
 }
 
 TEST_CASE(

@@ -127,7 +127,7 @@ namespace {
     return corner;
 }
 
-[[nodiscard]] std::vector<VertexValues> cut_depth_first(const std::vector<VertexValues>& given) {
+[[nodiscard]] std::vector<VertexValues> clip_depth_first(const std::vector<VertexValues>& given) {
     std::vector<VertexValues> polygon = given;
     for (int plane = 0; plane < 6; ++plane) {
         const auto is_out = [&](const VertexValues& v) { return distance_depth_first(plane, v) < 0; };
@@ -167,7 +167,7 @@ TEST_CASE("depth first the view volume clips by near and far and weights new cor
         }
         if (all != 0) continue;
         clipper.clip(polygon, any);
-        const std::vector<VertexValues> expected = cut_depth_first(given);
+        const std::vector<VertexValues> expected = clip_depth_first(given);
         std::vector<VertexValues> found;
         for (std::size_t i = 0; i < static_cast<std::size_t>(polygon.count); ++i)
             found.push_back(std::bit_cast<VertexValues>(polygon.corner[i]));

@@ -1,5 +1,5 @@
 // Tests the SIMD kernels of the chip's interpolators against the scalar set, which runs their definitions;
-// window_z_test, color_weights_test and cut_coordinates_test test the definitions against rationals and captures.
+// window_z_test, color_weights_test and truncated_coordinates_test test the definitions against rationals and captures.
 #include "rasterizer/values/chip_lanes.h"
 
 #include <bit>

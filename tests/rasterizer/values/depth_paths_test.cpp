@@ -33,7 +33,7 @@ using namespace strata::rasterizer;
     const Rational near{nearest_float(one)};
     switch (rule) {
         case DivideRule::exact: return nearest_float(Rational{n} / Rational{d});
-        case DivideRule::cut_reciprocal: return nearest_float(Rational{n} * cut_to_bits(one, 24));
+        case DivideRule::cut_reciprocal: return nearest_float(Rational{n} * truncate_to_bits(one, 24));
         case DivideRule::low_reciprocal: {
             const int unit = floor_log2(abs(near)) - 23;
             const bool is_power = abs(near) == power(unit + 23);  // below a power of two the unit is half as large

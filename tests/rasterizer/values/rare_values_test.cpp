@@ -5,8 +5,8 @@
 
 #include "rasterizer/base/nv20_arithmetic.h"
 #include "rasterizer/base/simd.h"
-#include "rasterizer/chip/cut_weight.h"
 #include "rasterizer/chip/perspective_weights.h"
+#include "rasterizer/chip/truncated_weights.h"
 #include "rasterizer/chip/w_buffer.h"
 #include "rasterizer/chip/window_z.h"
 #include "rasterizer/coverage/float_spans.h"
@@ -24,7 +24,7 @@ using namespace strata::rasterizer;
 [[nodiscard]] std::uint64_t random_whole(Random& random, int bits) { return (random() >> (64 - bits)) | 1u; }
 
 [[nodiscard]] Rational signed_cut(const Rational& v, int bits) {
-    return v < 0 ? Rational{-cut_to_bits(-v, bits)} : v == 0 ? v : cut_to_bits(v, bits);
+    return v < 0 ? Rational{-truncate_to_bits(-v, bits)} : v == 0 ? v : truncate_to_bits(v, bits);
 }
 
 const float infinity = std::numeric_limits<float>::infinity();
@@ -38,9 +38,9 @@ TEST_CASE("an edge value is truncated to 24 bits toward zero on either side of i
     for (int i = 0; i < 4000; ++i) {
         const auto size = static_cast<std::int64_t>(random_whole(random, random_int(random, 1, 62)));
         for (const std::int64_t e : {size, -size})
-            wrong += Rational{cut_edge(e)} != signed_cut(Rational{e}, 24) ? 1 : 0;
+            wrong += Rational{truncated_edge(e)} != signed_cut(Rational{e}, 24) ? 1 : 0;
     }
-    CHECK(cut_edge(0) == 0.0);
+    CHECK(truncated_edge(0) == 0.0);
     CHECK(wrong == 0);
 }
 
@@ -51,10 +51,11 @@ TEST_CASE("weights by a truncated reciprocal are those of rationals for areas an
     for (int i = 0; i < 4000; ++i) {
         const std::uint64_t area = random_whole(random, random_int(random, 8, 48));
         const std::uint64_t e = random() % (area + 1);
-        const Rational r = cut_to_bits(Rational{1} / Rational{area}, 28);
-        const Rational expected = e == 0 ? Rational{0} : cut_to_bits(Rational{e} * r, 24);
-        wrong += Rational{value(CutReciprocal{area}.weight(e))} != expected ? 1 : 0;
-        const CutWeights weights{static_cast<std::int64_t>(area), {.weights = WeightRule::area, .reciprocal_bits = 28}};
+        const Rational r = truncate_to_bits(Rational{1} / Rational{area}, 28);
+        const Rational expected = e == 0 ? Rational{0} : truncate_to_bits(Rational{e} * r, 24);
+        wrong += Rational{value(TruncatedReciprocal{area}.weight(e))} != expected ? 1 : 0;
+        const TruncatedWeights weights{static_cast<std::int64_t>(area),
+                                       {.weights = WeightRule::area, .reciprocal_bits = 28}};
         const auto size = static_cast<std::int64_t>(e);
         const std::array<double, 3> b = weights.at({size, -size, 0});
         wrong += Rational{b[0]} != expected || b[1] != -b[0] || b[2] != 0.0 ? 1 : 0;

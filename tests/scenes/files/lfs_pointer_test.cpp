@@ -43,9 +43,9 @@ TEST_CASE(
             static_cast<void>(load_scene(path, {}));
             FAIL("was read");
         } catch (const strata::InputError& error) {
-            const std::string sentence = error.what();
-            CHECK(sentence.find("Git LFS pointer, run git lfs pull") != std::string::npos);
-            CHECK((path.find(".gltf") == path.npos || sentence.find("'triangle.bin'") != std::string::npos));
+            const std::string message = error.what();
+            CHECK(message.find("Git LFS pointer, run git lfs pull") != std::string::npos);
+            CHECK((path.find(".gltf") == path.npos || message.find("'triangle.bin'") != std::string::npos));
         }
     }
     CHECK_FALSE(is_lfs_pointer("version 2"));

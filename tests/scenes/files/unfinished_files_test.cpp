@@ -42,7 +42,7 @@ int end_of_child(Body body) {
 
 int end_by(const TemporaryFolder& folder, int signal) {
     return end_of_child([&] {
-        strata::scenes::remove_unfinished_files_when_interrupted();
+        strata::scenes::install_interrupt_handlers();
         AtomicFile a{folder / "a.txt"}, b{folder / "b.txt"};
         a.write("x", 1);
         if (!std::filesystem::exists(a.temporary()) || !std::filesystem::exists(b.temporary())) ::_exit(1);
@@ -80,7 +80,7 @@ TEST_CASE("a signal deletes an unfinished folder with its content and follows no
     const TemporaryFolder folder, outside;
     std::ofstream(outside / "kept") << "kept";
     const int status = end_of_child([&] {
-        strata::scenes::remove_unfinished_files_when_interrupted();
+        strata::scenes::install_interrupt_handlers();
         strata::scenes::NewFolder finished{folder / "finished"}, half{folder / "half"};
         finished.write("a/b/c.txt", "c");
         finished.keep();
@@ -102,7 +102,7 @@ TEST_CASE("a signal that the process ignores stays ignored and an existing handl
         std::signal(SIGHUP, SIG_IGN);
         std::signal(SIGUSR1, SIG_IGN);
         std::signal(SIGSEGV, [](int) { ::_exit(7); });
-        strata::scenes::remove_unfinished_files_when_interrupted();
+        strata::scenes::install_interrupt_handlers();
         const AtomicFile file{folder / "a.txt"};
         ::raise(SIGHUP);
         ::raise(SIGUSR1);
@@ -115,7 +115,7 @@ TEST_CASE("a signal that the process ignores stays ignored and an existing handl
 TEST_CASE("a write beyond the limit of file sizes is an error and not a signal") {
     const TemporaryFolder folder;
     const int status = end_of_child([&] {
-        strata::scenes::remove_unfinished_files_when_interrupted();
+        strata::scenes::install_interrupt_handlers();
         const rlimit limit{4096, 4096};
         ::setrlimit(RLIMIT_FSIZE, &limit);
         try {

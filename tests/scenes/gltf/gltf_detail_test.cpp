@@ -176,12 +176,12 @@ TEST_CASE("colours of exactly 0 and 1 are in range and the next numbers beyond a
 
 TEST_CASE("a warning with several occurrences is reported once with the first one and the number of others") {
     strata::scenes::Warnings warnings;
-    CHECK(warnings.sentences().empty());
+    CHECK(warnings.messages().empty());
     warnings.add("/b", "second");
     warnings.add("/a", "first");
     warnings.add("/c", "second");
     warnings.add("/b", "second");
-    CHECK(warnings.sentences() == std::vector<std::string>{"/b (and 2 more): second", "/a: first"});
+    CHECK(warnings.messages() == std::vector<std::string>{"/b (and 2 more): second", "/a: first"});
 }
 
 TEST_CASE("text from a file is one line of at most 160 bytes in a message") {
@@ -193,7 +193,7 @@ TEST_CASE("text from a file is one line of at most 160 bytes in a message") {
     CHECK(one_line(std::string(160, 'x')) == std::string(160, 'x'));
     CHECK(one_line(std::string(161, 'x')) == std::string(160, 'x') + "...");
     CHECK(in_quotes("a\nb") == "'a?b'");
-    const strata::scenes::Place place{"f", ""};
-    CHECK(place.under("a").under(2).pointer == "/a/2");
-    CHECK_THROWS_WITH(place.fail("CODE", "this", "that"), "f: /: expected this, found that [CODE]");
+    const strata::scenes::FileLocation location{"f", ""};
+    CHECK(location.under("a").under(2).pointer == "/a/2");
+    CHECK_THROWS_WITH(location.fail("CODE", "this", "that"), "f: /: expected this, found that [CODE]");
 }

@@ -53,8 +53,8 @@ TEST_CASE("arrays that NumPy writes are read with any length and version of thei
 }
 
 TEST_CASE("a file that is not such an array is rejected with its position") {
-    const auto fails = [](const std::string& bytes, const std::string& sentence) {
-        CHECK_THROWS_WITH(static_cast<void>(parse_npy(bytes, "x.npy")), Contains(sentence));
+    const auto fails = [](const std::string& bytes, const std::string& message) {
+        CHECK_THROWS_WITH(static_cast<void>(parse_npy(bytes, "x.npy")), Contains(message));
     };
     const std::string four(4, '\0');
     fails("PNG", "x.npy: file: expected a .npy file");

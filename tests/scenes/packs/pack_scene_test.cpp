@@ -83,12 +83,12 @@ TEST_CASE("a pack is rejected where it is damaged or where something missing is 
     const std::string manifest = folder.path() + "/manifest.json";
     std::ifstream in{manifest};
     const std::string text{std::istreambuf_iterator<char>{in}, {}};
-    const auto fails = [&](const std::string& what, const std::string& by, const std::string& sentence) {
+    const auto fails = [&](const std::string& what, const std::string& by, const std::string& message) {
         std::string changed = text;
         REQUIRE(changed.find(what) != std::string::npos);
         changed.replace(changed.find(what), what.size(), by);
         std::ofstream{manifest} << changed;
-        CHECK_THROWS_WITH(load_scene(folder.path(), {}), Catch::Contains(sentence));
+        CHECK_THROWS_WITH(load_scene(folder.path(), {}), Catch::Contains(message));
     };
     fails("\"version\":1", "\"version\":2", "manifest.json: /version: expected 1");
     fails("strata-pack", "strata-park", "/format");

@@ -80,9 +80,9 @@ TEST_CASE("triangles are read from a .json file with a view if it has one") {
     CHECK((mesh.colors[2] == Rgba{0, 0, 1, 0.25f}));
     REQUIRE(scene.own_view);
     CHECK((scene.own_view->view[3][2] == -3 && scene.own_view->projection[2][3] == -1));
-    const auto fails = [&](const std::string& text, const std::string& sentence) {
+    const auto fails = [&](const std::string& text, const std::string& message) {
         INFO(text);
-        CHECK_THROWS_WITH(load_scene(written(folder, "x.json", text), {}), Catch::Contains(sentence));
+        CHECK_THROWS_WITH(load_scene(written(folder, "x.json", text), {}), Catch::Contains(message));
     };
     fails("[]", "x.json: /: expected an object");
     fails("{}", "the key 'positions'");

@@ -16,7 +16,7 @@ using KeyNames = std::vector<std::string_view>;
 const KeyNames ab{"a", "b"};
 
 template <class Action>
-std::string said_by(Action&& action) {
+std::string message_of(Action&& action) {
     try {
         action();
     } catch (const strata::InputError& error) {
@@ -25,8 +25,8 @@ std::string said_by(Action&& action) {
     return "accepted";
 }
 
-std::string said_of(const std::string& spec) {
-    return said_by([&] { static_cast<void>(Parameters(spec, ab)); });
+std::string message_for(const std::string& spec) {
+    return message_of([&] { static_cast<void>(Parameters(spec, ab)); });
 }
 
 }  // namespace
@@ -45,18 +45,18 @@ TEST_CASE("keys are accepted in any order and at most once and a missing key has
     CHECK(one.integer("a", 0, 99, 7) == 7);
     CHECK(none.integer("b", 0, 99, 8) == 8);
     CHECK(none.integer("b", 0, 5, 8) == 8);  // a default is not checked against the range
-    CHECK(said_of("s:a=1,a=1") == "s:a=1,a=1: a: expected one value, found two");
-    CHECK(said_of("s:b=1,a=1,b=2") == "s:b=1,a=1,b=2: b: expected one value, found two");
+    CHECK(message_for("s:a=1,a=1") == "s:a=1,a=1: a: expected one value, found two");
+    CHECK(message_for("s:b=1,a=1,b=2") == "s:b=1,a=1,b=2: b: expected one value, found two");
 }
 
 TEST_CASE("an item that is not key=value or has an unknown key is rejected with its position") {
     for (const char* spec : {"s:", "s:a=1,", "s:,a=1", "s:a=1,,b=2"})
-        CHECK(said_of(spec) == std::string{spec} + ": parameters: expected key=value, found ''");
-    CHECK(said_of("s:a=1,b") == "s:a=1,b: parameters: expected key=value, found 'b'");
-    CHECK(said_of("s:=1") == "s:=1: parameters: expected one of a, b, found ''");
-    CHECK(said_of("s:A=1") == "s:A=1: parameters: expected one of a, b, found 'A'");
-    CHECK(said_of("s: a=1") == "s: a=1: parameters: expected one of a, b, found ' a'");
-    CHECK(said_by([] { static_cast<void>(Parameters("s:a=1", KeyNames{})); }) ==
+        CHECK(message_for(spec) == std::string{spec} + ": parameters: expected key=value, found ''");
+    CHECK(message_for("s:a=1,b") == "s:a=1,b: parameters: expected key=value, found 'b'");
+    CHECK(message_for("s:=1") == "s:=1: parameters: expected one of a, b, found ''");
+    CHECK(message_for("s:A=1") == "s:A=1: parameters: expected one of a, b, found 'A'");
+    CHECK(message_for("s: a=1") == "s: a=1: parameters: expected one of a, b, found ' a'");
+    CHECK(message_of([] { static_cast<void>(Parameters("s:a=1", KeyNames{})); }) ==
           "s:a=1: parameters: expected one of , found 'a'");
 }
 
@@ -72,17 +72,17 @@ TEST_CASE("a whole number is accepted from its lowest to its highest value and n
                 const bool fits = low <= value && value <= high;
                 const std::string text = std::to_string(value),
                                   range = std::to_string(low) + " to " + std::to_string(high),
-                                  sentence = said_by([&] {
+                                  message = message_of([&] {
                                       if (read(text, low, high) != value) wrong += text + " changed ";
                                   });
                 const std::string refused =
                     "s:a=" + text + ": a: expected a whole number from " + range + ", found '" + text + "'";
-                if (sentence != (fits ? "accepted" : refused)) wrong += text + " in " + range + " ";
+                if (message != (fits ? "accepted" : refused)) wrong += text + " in " + range + " ";
             }
     CHECK(wrong == "");
     CHECK(read("007", 0, 9) == 7);
     for (const char* text : {"", "+1", "-0", "1 ", "1e2", "1.0", "0b1", "18446744073709551616", "1=2"})
-        CHECK(said_by([&] { static_cast<void>(read(text, 0, UINT64_MAX)); }) ==
+        CHECK(message_of([&] { static_cast<void>(read(text, 0, UINT64_MAX)); }) ==
               "s:a=" + std::string{text} + ": a: expected a whole number from 0 to 18446744073709551615, found '" +
                   text + "'");
 }
@@ -92,9 +92,9 @@ TEST_CASE("a choice is its index in the list and the first one if nothing is giv
     CHECK(Parameters{"s", ab}.choice("a", words) == 0);
     for (std::size_t i = 0; i < words.size(); ++i)
         CHECK(Parameters{"s:a=" + std::string{words[i]}, ab}.choice("a", words) == i);
-    CHECK(said_by([&] { static_cast<void>(Parameters("s:a=fat", ab).choice("a", words)); }) ==
+    CHECK(message_of([&] { static_cast<void>(Parameters("s:a=fat", ab).choice("a", words)); }) ==
           "s:a=fat: a: expected one of far, near, middle, found 'fat' (did you mean 'far'?)");
-    CHECK(said_by([&] { static_cast<void>(Parameters("s:a=", ab).choice("a", words)); }) ==
+    CHECK(message_of([&] { static_cast<void>(Parameters("s:a=", ab).choice("a", words)); }) ==
           "s:a=: a: expected one of far, near, middle, found ''");
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("each parameter of a built-in scene is accepted at both of its limits 
     for (const Range& range : ranges) {
         const std::string scene = range.scene, start = scene + (scene.find(':') == std::string::npos ? ":" : ",");
         const auto said = [&](const std::string& value) {
-            return said_by([&] { static_cast<void>(load_scene(start + range.key + "=" + value, {})); });
+            return message_of([&] { static_cast<void>(load_scene(start + range.key + "=" + value, {})); });
         };
         INFO(scene << ' ' << range.key);
         CHECK(said(range.lowest) == "accepted");
@@ -123,7 +123,7 @@ TEST_CASE("each parameter of a built-in scene is accepted at both of its limits 
 }
 
 TEST_CASE("a scene without parameters takes none and the defaults are those in the list") {
-    CHECK_THAT(said_by([] { static_cast<void>(load_scene("shadow-demo:size=1", {})); }),
+    CHECK_THAT(message_of([] { static_cast<void>(load_scene("shadow-demo:size=1", {})); }),
                Catch::Contains("parameters: expected one of "));
     const std::pair<const char*, const char*> equal[] = {{"teapot", "teapot:tessellation=16"},
                                                          {"volume-beam", "volume-beam:slices=32,order=far"},

@@ -24,18 +24,18 @@ inline void peel_by_less(peeling::Algorithm& algorithm) {
             state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
             state.depth_target = nearest;
             if (number > 0) state.reads[0] = peeled;
-            static_cast<void>(region.draw(state, [number](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            static_cast<void>(region.draw(state, [number](const FragmentBatch& in, const Loads& loads, Outputs& out) {
                 for (std::size_t i = 0; number > 0 && i < peeling::lanes(in); ++i)
-                    if (in.code[i] < own.depth(0)[i]) out.discard(static_cast<int>(i));
+                    if (in.code[i] < loads.depth(0)[i]) out.discard(static_cast<int>(i));
             }));
             PassState show;
             show.color[0] = result;
             show.reads = {nearest, region.opaque_depth()};
-            static_cast<void>(region.full_screen(show, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            static_cast<void>(region.full_screen(show, [](const FragmentBatch& in, const Loads& loads, Outputs& out) {
                 out.traced = true;
                 for (std::size_t i = 0; i < peeling::lanes(in); ++i) {
-                    out.side[i] = own.depth(0)[i] != own.depth(1)[i] ? Side::front : Side::none;
-                    out.key[i] = own.depth(0)[i];
+                    out.side[i] = loads.depth(0)[i] != loads.depth(1)[i] ? Side::front : Side::none;
+                    out.key[i] = loads.depth(0)[i];
                 }
             }));
             std::swap(peeled, nearest);

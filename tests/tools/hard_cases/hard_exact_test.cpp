@@ -13,8 +13,8 @@ namespace {
 
 using namespace strata;
 using tools::ExactCase;
-using tools::Seen;
-using tools::SeenPixel;
+using tools::ResultPixel;
+using tools::ResultPixels;
 using RationalPixels = std::vector<std::vector<testing::ExactFragment>>;
 
 RationalPixels by_rationals(const scenes::HardCase& hard, const scenes::Scene& scene) {
@@ -24,13 +24,13 @@ RationalPixels by_rationals(const scenes::HardCase& hard, const scenes::Scene& s
 }
 
 // Every fragment is listed and no other; a nearer one is before a farther one, and equal depths share an index.
-bool is_answer(const SeenPixel& seen, std::vector<testing::ExactFragment> exact) {
+bool is_answer(const ResultPixel& pixel, std::vector<testing::ExactFragment> exact) {
     std::ranges::sort(exact, {}, &testing::ExactFragment::triangle);
-    if (seen.fragments.size() != exact.size()) return false;
+    if (pixel.fragments.size() != exact.size()) return false;
     for (std::size_t i = 0; i < exact.size(); ++i) {
-        if (seen.fragments[i].primitive != exact[i].triangle) return false;
+        if (pixel.fragments[i].primitive != exact[i].triangle) return false;
         for (std::size_t k = 0; k < i; ++k) {
-            const int order = seen.fragments[i].place - seen.fragments[k].place;
+            const int order = pixel.fragments[i].layer - pixel.fragments[k].layer;
             if (exact[i].depth < exact[k].depth   ? order >= 0
                 : exact[i].depth > exact[k].depth ? order <= 0
                                                   : order != 0)
@@ -59,12 +59,12 @@ TEST_CASE("the exact answer from which movements are measured equals rational ar
         INFO(hard.name);
         ++cases;
         const scenes::Scene scene = make_hard_case({}, hard);
-        const Seen seen = ExactCase{hard, scene, *scene.own_view}.seen();
+        const ResultPixels visible_pixels = ExactCase{hard, scene, *scene.own_view}.visible_pixels();
         const RationalPixels exact = by_rationals(hard, scene);
-        REQUIRE(seen.size() == exact.size());
+        REQUIRE(visible_pixels.size() == exact.size());
         int wrong = 0;
-        for (std::size_t p = 0; p < seen.size(); ++p)
-            if (!is_answer(seen[p], exact[p])) ++wrong;
+        for (std::size_t p = 0; p < visible_pixels.size(); ++p)
+            if (!is_answer(visible_pixels[p], exact[p])) ++wrong;
         CHECK(wrong == 0);
     }
     CHECK(cases >= 20);
@@ -137,5 +137,5 @@ TEST_CASE("triangles of cases that are moved have one colour each and the exact 
     const scenes::HardCase& hard = *scenes::find_hard_case("planes-1-unit");
     const scenes::Scene scene = make_hard_case({}, hard);
     const double front = 0.875, back = 0.5;  // red channel of colours 2 and 1
-    CHECK(ExactCase{hard, scene, *scene.own_view}.seen()[33].color[0] == 0.5 * front + 0.25 * back);
+    CHECK(ExactCase{hard, scene, *scene.own_view}.visible_pixels()[33].color[0] == 0.5 * front + 0.25 * back);
 }

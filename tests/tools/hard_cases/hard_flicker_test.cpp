@@ -13,15 +13,15 @@ namespace {
 
 using namespace strata;
 using tools::Flicker;
-using tools::Look;
-using tools::Looked;
 using tools::PathCase;
+using tools::RenderedPixels;
+using tools::RenderFunction;
 
 const scenes::HardCase& hard_named(const char* name) { return *scenes::find_hard_case(name); }
 
-Look look_exactly(const scenes::HardCase& hard) {
+RenderFunction look_exactly(const scenes::HardCase& hard) {
     return [&hard](const scenes::Scene& scene, const pipeline::View& view) {
-        return Looked{.seen = tools::ExactCase{hard, scene, view}.seen(), .refusal = {}};
+        return RenderedPixels{.pixels = tools::ExactCase{hard, scene, view}.visible_pixels(), .refusal = {}};
     };
 }
 
@@ -40,12 +40,12 @@ TEST_CASE("the exact answer never flips where it does not change and pixels are 
 TEST_CASE("a renderer that reverses all layers in every second frame flips in order wherever two layers are visible") {
     const scenes::HardCase& hard = hard_named("crossing-between-rows");
     const auto frame = std::make_shared<int>(0);
-    const Look turning = [&hard, frame](const scenes::Scene& scene, const pipeline::View& view) {
-        Looked looked = look_exactly(hard)(scene, view);
-        if (++*frame % 2 != 0) return looked;
-        for (auto& pixel : looked.seen)
-            for (auto& f : pixel.fragments) f.place = -f.place + 9;
-        return looked;
+    const RenderFunction turning = [&hard, frame](const scenes::Scene& scene, const pipeline::View& view) {
+        RenderedPixels rendered = look_exactly(hard)(scene, view);
+        if (++*frame % 2 != 0) return rendered;
+        for (auto& pixel : rendered.pixels)
+            for (auto& f : pixel.fragments) f.layer = -f.layer + 9;
+        return rendered;
     };
     const PathCase path{hard};
     const Flicker flicker = path.flicker(turning);
@@ -60,11 +60,12 @@ TEST_CASE("a renderer that reverses all layers in every second frame flips in or
 TEST_CASE("a renderer that loses a triangle in every second frame flips in coverage and not in order") {
     const scenes::HardCase& hard = hard_named("crossing-between-rows");
     const auto frame = std::make_shared<int>(0);
-    const Look losing = [&hard, frame](const scenes::Scene& scene, const pipeline::View& view) {
-        Looked looked = look_exactly(hard)(scene, view);
-        if (++*frame % 2 != 0) return looked;
-        for (auto& pixel : looked.seen) std::erase_if(pixel.fragments, [](const auto& f) { return f.primitive < 2; });
-        return looked;
+    const RenderFunction losing = [&hard, frame](const scenes::Scene& scene, const pipeline::View& view) {
+        RenderedPixels rendered = look_exactly(hard)(scene, view);
+        if (++*frame % 2 != 0) return rendered;
+        for (auto& pixel : rendered.pixels)
+            std::erase_if(pixel.fragments, [](const auto& f) { return f.primitive < 2; });
+        return rendered;
     };
     const Flicker flicker = PathCase{hard}.flicker(losing);
     CHECK(flicker.order == 0);

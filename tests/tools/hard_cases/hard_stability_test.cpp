@@ -15,28 +15,28 @@
 namespace {
 
 using namespace strata;
-using tools::Look;
-using tools::Looked;
-using tools::Looker;
 using tools::MovedCase;
 using tools::PixelClass;
+using tools::RenderedPixels;
+using tools::RendererProperties;
+using tools::RenderFunction;
 using tools::StabilityRow;
 using tools::StabilityVerdict;
 
-constexpr Looker eight{.grid = 1.0 / 256, .depth = 1.0 / 0xffffff};
+constexpr RendererProperties eight{.grid = 1.0 / 256, .depth = 1.0 / 0xffffff};
 constexpr auto beyond = static_cast<std::size_t>(PixelClass::beyond);
 
-Look exact_look(const scenes::HardCase& hard) {
+RenderFunction exact_look(const scenes::HardCase& hard) {
     return [&hard](const scenes::Scene& scene, const pipeline::View& view) {
-        return Looked{.seen = tools::ExactCase{hard, scene, view}.seen(), .refusal = {}};
+        return RenderedPixels{.pixels = tools::ExactCase{hard, scene, view}.visible_pixels(), .refusal = {}};
     };
 }
 
-Look device_look(const scenes::HardCase& hard, const char* profile, const peeling::Algorithm& algorithm) {
+RenderFunction device_look(const scenes::HardCase& hard, const char* profile, const peeling::Algorithm& algorithm) {
     return [&hard, profile, algorithm](const scenes::Scene& scene, const pipeline::View& view) {
         peeling::Renderer renderer{scene.list, view, *pipeline::find_profile(profile),
                                    tools::hard_options(hard, pipeline::DepthFormat::d24)};
-        return tools::look(renderer, algorithm, hard.width);
+        return tools::render(renderer, algorithm, hard.width);
     };
 }
 
@@ -82,17 +82,17 @@ float stepped_depth(const scenes::Scene& scene, std::uint32_t triangle, std::siz
     return row + along;
 }
 
-Look stepping_look(Anchor anchor) {
+RenderFunction stepping_look(Anchor anchor) {
     return [anchor](const scenes::Scene& scene, const pipeline::View& view) {
-        Looked looked{.seen = tools::ExactCase{steep, scene, view}.seen(), .refusal = {}};
-        for (std::size_t p = 0; p < looked.seen.size(); ++p) {
-            auto& fragments = looked.seen[p].fragments;
+        RenderedPixels rendered{.pixels = tools::ExactCase{steep, scene, view}.visible_pixels(), .refusal = {}};
+        for (std::size_t p = 0; p < rendered.pixels.size(); ++p) {
+            auto& fragments = rendered.pixels[p].fragments;
             for (auto& f : fragments) f.depth = double{stepped_depth(scene, f.primitive, p, anchor)};
             for (auto& f : fragments)
-                f.place = static_cast<int>(std::ranges::count_if(
-                    fragments, [&](const tools::SeenFragment& other) { return other.depth < f.depth; }));
+                f.layer = static_cast<int>(std::ranges::count_if(
+                    fragments, [&](const tools::ResultFragment& other) { return other.depth < f.depth; }));
         }
-        return looked;
+        return rendered;
     };
 }
 
@@ -113,7 +113,7 @@ TEST_CASE("the exact answer is stable on every case and amplifies nothing") {
 
 TEST_CASE("planes anchored at the window's corner are unstable and those anchored at the triangle's corner are not") {
     const MovedCase moved{steep};
-    const Looker without_grid{.grid = 0, .depth = 0x1p-24};
+    const RendererProperties without_grid{.grid = 0, .depth = 0x1p-24};
     const StabilityRow corner = moved.stability(without_grid, stepping_look(Anchor::window_corner));
     CHECK(corner.verdict == StabilityVerdict::unstable);
     CHECK(corner.by_size[0].wrong_beyond > 0);
@@ -123,7 +123,7 @@ TEST_CASE("planes anchored at the window's corner are unstable and those anchore
     CHECK(own.by_size[0].wrong_beyond == 0);
     CHECK_FALSE(own.by_size[0].ours[beyond].is_any());
     // With a diagnostic, or on a device whose planes are known to have steps, the fault is attributed to the hardware.
-    Looker excused = without_grid;
+    RendererProperties excused = without_grid;
     excused.is_excused = true;
     CHECK(moved.stability(excused, stepping_look(Anchor::window_corner)).verdict == StabilityVerdict::breaks);
 }
@@ -145,7 +145,7 @@ TEST_CASE("a coarse grid moves depths that a fine one keeps and the table says b
     const peeling::Algorithm& peel = *peeling::find_algorithm("depth_units");
     const StabilityRow fine = moved.stability(eight, device_look(hard, "geforce8", peel));
     CHECK(fine.verdict == StabilityVerdict::stable);
-    Looker three = eight;
+    RendererProperties three = eight;
     three.grid = 1.0 / 16;
     const StabilityRow coarse = moved.stability(three, device_look(hard, "geforce3", peel));
     CHECK(coarse.verdict == StabilityVerdict::degrades);

@@ -10,11 +10,11 @@ namespace strata::hardware_check {
 
 using Names = std::vector<std::string>;
 
-enum class Says : std::uint8_t { drawn, not_modelled, unknown };
+enum class Outcome : std::uint8_t { drawn, not_modelled, unknown };
 
 // Names of one suite with the same outcome. `count` is their number by the suite's parameters, counted by hand.
 struct NameGroup {
-    Says says;
+    Outcome outcome;
     std::string_view suite;
     Names names;
     std::size_t count;

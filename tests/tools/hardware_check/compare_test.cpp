@@ -25,9 +25,9 @@ void paint(Image& image, int x, int y, const Bytes4& color) {
 struct OneWord {
     Picture drawn;
     Image capture = blank(Format::rgba8);
-    OneWord(Reading reading, std::uint32_t depth, std::optional<std::uint32_t> stencil, const Bytes4& pixel) {
+    OneWord(CaptureFormat reading, std::uint32_t depth, std::optional<std::uint32_t> stencil, const Bytes4& pixel) {
         drawn.reading = reading;
-        drawn.image = blank(reading == Reading::depth16 ? Format::d16 : Format::d24);
+        drawn.image = blank(reading == CaptureFormat::depth16 ? Format::d16 : Format::d24);
         drawn.image.codes[drawn.image.index(5, 7)] = depth;
         if (stencil) {
             drawn.stencil = blank(Format::s8);
@@ -52,39 +52,39 @@ Picture colored(const Bytes4& background) {
 TEST_CASE("a 16-bit depth is read from R5G6B5 expanded to 8 bits per channel") {
     for (const std::uint32_t word : {0u, 1u, 0x001fu, 0x0020u, 0x07e0u, 0x0800u, 0x1234u, 0xfedcu, 0xffffu}) {
         const std::uint32_t r = word >> 11, g = word >> 5 & 63, b = word & 31;
-        const OneWord same{Reading::depth16, word, {}, {r << 3 | r >> 2, g << 2 | g >> 4, b << 3 | b >> 2, 255}};
+        const OneWord same{CaptureFormat::depth16, word, {}, {r << 3 | r >> 2, g << 2 | g >> 4, b << 3 | b >> 2, 255}};
         CHECK(same.compared().differing == 0);
         CHECK(same.compared().compared == 640 * 480);
     }
     const OneWord more{
-        Reading::depth16, 0x1234, {}, {0x10, 0x44, 0xa5, 255}};  // 00010 010001 10100, and 1234 is ...10001 10100
+        CaptureFormat::depth16, 0x1234, {}, {0x10, 0x44, 0xa5, 255}};  // 00010 010001 10100, and 1234 is ...10001 10100
     CHECK(more.compared().differing == 0);
-    const OneWord less{Reading::depth16, 0x1235, {}, {0x10, 0x44, 0xa5, 255}};
+    const OneWord less{CaptureFormat::depth16, 0x1235, {}, {0x10, 0x44, 0xa5, 255}};
     CHECK(less.compared().histogram == Histogram{{-1, 1}});
     CHECK(less.compared().ours == 0x1235);
     CHECK(less.compared().theirs == 0x1234);
 }
 
 TEST_CASE("a 24-bit depth is read from channels A R G with the highest byte first and its stencil from B") {
-    const OneWord equal{Reading::depth24, 0x123456, 0x78, {0x34, 0x56, 0x78, 0x12}};
+    const OneWord equal{CaptureFormat::depth24, 0x123456, 0x78, {0x34, 0x56, 0x78, 0x12}};
     CHECK(equal.compared().differing == 0);
-    const OneWord nearer{Reading::depth24, 0x123456, 0x78, {0x34, 0x54, 0x78, 0x12}};
+    const OneWord nearer{CaptureFormat::depth24, 0x123456, 0x78, {0x34, 0x54, 0x78, 0x12}};
     CHECK(nearer.compared().histogram == Histogram{{-2, 1}});  // in depth units
-    const OneWord both{Reading::depth24, 0x123456, 0x78, {0x34, 0x57, 0x70, 0x12}};
+    const OneWord both{CaptureFormat::depth24, 0x123456, 0x78, {0x34, 0x57, 0x70, 0x12}};
     CHECK(both.compared().histogram == Histogram{{1, 1}});  // the depth difference counts, the stencil is not added
-    const OneWord counted{Reading::depth24, 0x123456, 0x78, {0x34, 0x56, 0x7b, 0x12}};
+    const OneWord counted{CaptureFormat::depth24, 0x123456, 0x78, {0x34, 0x56, 0x7b, 0x12}};
     CHECK(counted.compared().histogram == Histogram{{3, 1}});
-    const OneWord highest{Reading::depth24, 0x123456, 0xff, {0x34, 0x56, 0x00, 0x12}};
+    const OneWord highest{CaptureFormat::depth24, 0x123456, 0xff, {0x34, 0x56, 0x00, 0x12}};
     CHECK(highest.compared().histogram == Histogram{{-255, 1}});
-    const OneWord without{Reading::depth24, 0x123456, {}, {0x34, 0x56, 0x99, 0x12}};
+    const OneWord without{CaptureFormat::depth24, 0x123456, {}, {0x34, 0x56, 0x99, 0x12}};
     CHECK(without.compared().differing == 0);  // B is ignored
-    const OneWord farthest{Reading::depth24, 0, {}, {0xff, 0xff, 0, 0xff}};
+    const OneWord farthest{CaptureFormat::depth24, 0, {}, {0xff, 0xff, 0, 0xff}};
     CHECK(farthest.compared().largest == 0xffffff);
 }
 
 TEST_CASE("for a picture that is read as drawn or not only the covered pixels are compared and not their colours") {
     Picture picture = colored({1, 2, 3, 4});
-    picture.reading = Reading::drawn;
+    picture.reading = CaptureFormat::drawn;
     Image capture = picture.image;
     paint(picture.image, 10, 20, {9, 9, 9, 9});
     paint(capture, 10, 20, {7, 2, 3, 4});
@@ -127,16 +127,17 @@ TEST_CASE("a difference is within the bound if neither the pixel count nor the l
 
 TEST_CASE(
     "labels are white with alpha 0 in pictures of colours and coverage and such pixels are values in depth pictures") {
-    for (const Reading reading : {Reading::color, Reading::drawn, Reading::depth16, Reading::depth24}) {
+    for (const CaptureFormat reading :
+         {CaptureFormat::color, CaptureFormat::drawn, CaptureFormat::depth16, CaptureFormat::depth24}) {
         Picture picture = colored({0, 0, 0, 0});
         picture.reading = reading;
-        if (reading == Reading::depth16) picture.image = blank(Format::d16);
-        if (reading == Reading::depth24) picture.image = blank(Format::d24);
+        if (reading == CaptureFormat::depth16) picture.image = blank(Format::d16);
+        if (reading == CaptureFormat::depth24) picture.image = blank(Format::d24);
         Image capture = blank(Format::rgba8);
         paint(capture, 30, 40, {255, 255, 255, 0});
         paint(capture, 33, 41, {255, 255, 255, 0});
         paint(capture, 34, 45, {255, 255, 255, 1});  // not a label pixel
-        const bool has_labels = reading == Reading::color || reading == Reading::drawn;
+        const bool has_labels = reading == CaptureFormat::color || reading == CaptureFormat::drawn;
         CHECK(label_box(picture, capture) == (has_labels ? rasterizer::Rect{30, 40, 34, 42} : rasterizer::Rect{}));
         CHECK(compare(picture, capture, "c.png").compared == 640 * 480 - (has_labels ? 2u : 0u));
         CHECK(compare(picture, capture, "c.png").differing == (has_labels ? 1u : 3u));
@@ -165,7 +166,7 @@ TEST_CASE("a hidden rectangle includes its left and upper sides and excludes its
 
 TEST_CASE(
     "differences are red where the chip's value is greater and cyan where it is less and hidden pixels are white") {
-    OneWord words{Reading::depth16, 100, {}, {0, 0, 0, 255}};
+    OneWord words{CaptureFormat::depth16, 100, {}, {0, 0, 0, 255}};
     paint(words.capture, 6, 7, {0, 0, 0x28, 255});  // 5, ours is 0
     words.drawn.hidden = {{50, 60, 51, 61}};
     const Image shown = difference_picture(words.drawn, words.capture);
@@ -226,5 +227,5 @@ TEST_CASE("a suite is marked with the kinds of constants that its captures can d
                                                     {"W_param", 8},
                                                     {"ZMinMaxControl", 4}};
     for (const Suite& suite : suites())
-        CHECK(unsigned{suite.tells} == (told.contains(suite.name) ? told.at(suite.name) : 0u));
+        CHECK(unsigned{suite.determines} == (told.contains(suite.name) ? told.at(suite.name) : 0u));
 }

@@ -13,21 +13,21 @@ using namespace strata::hardware_check;
 
 namespace {
 
-Says says_of(const Suite& suite, const std::string& name) {
+Outcome outcome_of(const Suite& suite, const std::string& name) {
     pipeline::DeviceProfile nothing = *pipeline::find_profile("geforce3");
     nothing.has_d16 = nothing.has_d24 = nothing.has_d16f = nothing.has_d24f = false;
     try {
-        return suite.draw(name, nothing).reason == unknown_name_reason ? Says::unknown : Says::not_modelled;
+        return suite.draw(name, nothing).reason == unknown_name_reason ? Outcome::unknown : Outcome::not_modelled;
     } catch (const pipeline::Refused&) {
-        return Says::drawn;
+        return Outcome::drawn;
     }
 }
 
 // The names whose outcome is not `expected`.
-std::string said_otherwise(Says expected, std::string_view suite, const Names& names) {
+std::string with_other_outcome(Outcome expected, std::string_view suite, const Names& names) {
     std::string otherwise;
     for (const std::string& name : names)
-        if (says_of(*find_suite(suite), name) != expected) otherwise += std::string{suite} + "/" + name + " ";
+        if (outcome_of(*find_suite(suite), name) != expected) otherwise += std::string{suite} + "/" + name + " ";
     return otherwise;
 }
 
@@ -45,7 +45,7 @@ TEST_CASE("every name of the archive is drawn or reported as not modelled") {
     for (const NameGroup& group : archive_names()) {
         INFO(group.suite << " " << group.names.front());
         CHECK(group.names.size() == group.count);
-        otherwise += said_otherwise(group.says, group.suite, group.names);
+        otherwise += with_other_outcome(group.outcome, group.suite, group.names);
         names += group.names.size();
     }
     CHECK(otherwise == "");
@@ -61,7 +61,7 @@ TEST_CASE("every picture of the archive is drawn completely and depends on its n
     for (const NameGroup& group : archive)
         for (const std::string& name : group.names) {
             first.push_back(drawn_or_reason(group.suite, name));
-            if (group.says == Says::drawn) ++drawn;
+            if (group.outcome == Outcome::drawn) ++drawn;
             if (first.back().empty()) without_reason += name + " ";
         }
     std::size_t i = first.size();
@@ -102,7 +102,7 @@ TEST_CASE("parameters that no test of the suite uses are rejected") {
          {"prog_w_zero_inf__quad_w", "prog_w_zero_inf__quad_wx", "prog_w_zero_inf__tri_w1.00",
           "prog_w_zero_inf__quad_w1e-30"}},
         {"ZMinMaxControl", {"Ctrl_", "Ctrl_ZCULLED", "Ctrl_NEARFAR_WBuf_ZCULL"}}};
-    for (const auto& [suite, names] : wrong) CHECK(said_otherwise(Says::unknown, suite, names) == "");
-    CHECK(said_otherwise(Says::not_modelled, "ZPass_pixel_count",
-                         {"ZPassPointSize-0x0200", "ZPassPointSizeVS-0x0202", "ZPassLineWidth-0xFFFFFFFF"}) == "");
+    for (const auto& [suite, names] : wrong) CHECK(with_other_outcome(Outcome::unknown, suite, names) == "");
+    CHECK(with_other_outcome(Outcome::not_modelled, "ZPass_pixel_count",
+                             {"ZPassPointSize-0x0200", "ZPassPointSizeVS-0x0202", "ZPassLineWidth-0xFFFFFFFF"}) == "");
 }

@@ -114,7 +114,7 @@ TEST_CASE("a square with a corner of w = -infinity covers the same pixels as on 
     const Row row{"W_param", "prog_w_zero_inf__bitri_w-inf", "db40237f2459e2ebc4fd910187e4c6f7", {20, 25, 407, 416}};
     Drawing drawing = draw(*find_suite(row.suite), row.picture, geforce3(), textures);
     REQUIRE(drawing.picture);
-    drawing.picture->reading = Reading::drawn;
+    drawing.picture->reading = CaptureFormat::drawn;
     drawing.picture->background = {0x25, 0x11, 0x35, 0xfe};
     CHECK(digest_outside(row.labels, *drawing.picture) == row.digest);
 }
@@ -132,7 +132,7 @@ TEST_CASE("a difference is counted and located and its size compared with the bo
     const Drawing drawing = find_suite("Front_face")->draw("FrontFace_CW_CF_B", geforce3());
     REQUIRE(drawing.picture);
     Picture picture = *drawing.picture;
-    picture.reading = Reading::color;
+    picture.reading = CaptureFormat::color;
     pipeline::Image capture = picture.image;
     capture.codes[capture.index(7, 9, 2)] += 5;
     capture.codes[capture.index(3, 11, 0)] += 2;

@@ -23,7 +23,7 @@ std::string digest_of(const Scene& scene) {
 Triangles both() { return {.name = "both", .positions = {two_triangles, 6}, .colors = {six_colors, 6}}; }
 
 // The error message of add() for triangles that are changed.
-std::string said_of(const std::function<void(Triangles&)>& change) {
+std::string message_for(const std::function<void(Triangles&)>& change) {
     Triangles triangles = both();
     change(triangles);
     Scene scene;
@@ -95,29 +95,29 @@ TEST_CASE("triangles can be added to a loaded scene and opaque ones hide others"
 TEST_CASE("an invalid field of triangles is rejected by name and nothing is added") {
     const std::uint32_t wrong[] = {0, 1, 6};
     const std::uint32_t two[] = {0, 1};
-    CHECK_THAT(said_of([](Triangles& t) {
+    CHECK_THAT(message_for([](Triangles& t) {
                    t.positions.count = 5;
                    t.colors.count = 5;
                }),
                Contains("triangles 'both': positions.count: expected three a triangle, found 5"));
-    CHECK_THAT(said_of([](Triangles& t) { t.positions.count = 0; }),
+    CHECK_THAT(message_for([](Triangles& t) { t.positions.count = 0; }),
                Contains("positions.count: expected at least 3, found 0"));
-    CHECK_THAT(said_of([](Triangles& t) { t.positions.first = nullptr; }),
+    CHECK_THAT(message_for([](Triangles& t) { t.positions.first = nullptr; }),
                Contains("positions.first: expected the address of 6 vertices, found null"));
-    CHECK_THAT(said_of([](Triangles& t) { t.positions.stride_bytes = 8; }),
+    CHECK_THAT(message_for([](Triangles& t) { t.positions.stride_bytes = 8; }),
                Contains("positions.stride_bytes: expected 0 or at least 12, found 8"));
-    CHECK_THAT(said_of([](Triangles& t) { t.colors.count = 3; }),
+    CHECK_THAT(message_for([](Triangles& t) { t.colors.count = 3; }),
                Contains("colors.count: expected 6 or none, found 3"));
-    CHECK_THAT(said_of([](Triangles& t) { t.colors.stride_bytes = 12; }),
+    CHECK_THAT(message_for([](Triangles& t) { t.colors.stride_bytes = 12; }),
                Contains("colors.stride_bytes: expected 0 or at least 16, found 12"));
-    CHECK_THAT(said_of([&](Triangles& t) { t.indices = wrong; }),
+    CHECK_THAT(message_for([&](Triangles& t) { t.indices = wrong; }),
                Contains("indices[2]: expected less than 6, found 6"));
-    CHECK_THAT(said_of([&](Triangles& t) { t.indices = two; }),
+    CHECK_THAT(message_for([&](Triangles& t) { t.indices = two; }),
                Contains("indices: expected three a triangle, found 2"));
-    CHECK_THAT(said_of([](Triangles& t) { t.color[3] = NAN; }), Contains("color[3]: expected a finite number"));
-    CHECK_THAT(said_of([](Triangles& t) { t.model.emplace().fill(INFINITY); }),
+    CHECK_THAT(message_for([](Triangles& t) { t.color[3] = NAN; }), Contains("color[3]: expected a finite number"));
+    CHECK_THAT(message_for([](Triangles& t) { t.model.emplace().fill(INFINITY); }),
                Contains("model[0]: expected a finite number"));
-    CHECK(said_of([](Triangles&) {}) == "accepted");
+    CHECK(message_for([](Triangles&) {}) == "accepted");
 }
 
 TEST_CASE("a camera with an empty view volume is rejected by its field") {

@@ -147,10 +147,11 @@ TEST_CASE("the point where algorithms differ is described in a sentence and draw
     std::vector<History> histories;
     for (const char* name : {"front_to_back", "dual", "weighted_average"})
         histories.push_back(explain(column.input("geforce8"), *peeling::find_algorithm(name), centre).at(0));
-    const auto sentences = first_differences(histories);
-    REQUIRE(sentences.size() == 2);
-    CHECK(sentences[0].starts_with("dual composites the same "));
-    CHECK(sentences[1].starts_with("weighted_average parts from front_to_back at layer 0: no further layer against #"));
+    const auto descriptions = first_differences(histories);
+    REQUIRE(descriptions.size() == 2);
+    CHECK(descriptions[0].starts_with("dual composites the same "));
+    CHECK(descriptions[1].starts_with(
+        "weighted_average parts from front_to_back at layer 0: no further layer against #"));
     const std::string svg = to_svg(histories);
     CHECK(svg.starts_with("<svg "));
     CHECK(svg.find(">dual</text>") != std::string::npos);

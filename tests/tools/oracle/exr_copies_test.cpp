@@ -52,7 +52,7 @@ TEST_CASE("EXR copies have the codes of the arrays and a copy that differs is re
     const auto faults = check_pack(pack);
     REQUIRE(faults.size() == 2);
     CHECK(faults[0].file == "expected/dual/pass.001.exr");
-    CHECK_THAT(faults[0].sentence, Catch::EndsWith("its codes are not those of the array"));
+    CHECK_THAT(faults[0].message, Catch::EndsWith("its codes are not those of the array"));
     CHECK(faults[1].file == "expected/dual/pass.777.exr");
-    CHECK(faults[1].sentence == "is a copy of no array");
+    CHECK(faults[1].message == "is a copy of no array");
 }

@@ -77,7 +77,7 @@ TEST_CASE("an intact pack passes its check and a changed byte is reported with i
         INFO(name << " byte " << position);
         REQUIRE_FALSE(faults.empty());
         CHECK(faults[0].file == name);
-        CHECK_THAT(faults[0].sentence,
+        CHECK_THAT(faults[0].message,
                    Contains("byte " + std::to_string(position)) &&
                        Contains("expected " + std::to_string(static_cast<unsigned char>(whole[position]))) &&
                        Contains("found " + std::to_string(static_cast<unsigned char>(other[position]))));
@@ -123,9 +123,9 @@ TEST_CASE("a check finds missing or extra files or a changed manifest or two cha
     const std::string picture = pack + "/expected/front_to_back/picture.npy", whole = bytes_of_file(picture);
     files::remove(picture);
     REQUIRE(check_pack(pack).size() == 1);
-    CHECK(check_pack(pack)[0].sentence == "no such file");
+    CHECK(check_pack(pack)[0].message == "no such file");
     put_bytes(picture, whole.substr(0, whole.size() - 1));
-    CHECK_THAT(check_pack(pack).at(0).sentence, Contains("more than one place"));
+    CHECK_THAT(check_pack(pack).at(0).message, Contains("more than one place"));
     put_bytes(picture, whole);
     put_bytes(pack + "/expected/notes.txt", "x");
     CHECK(check_pack(pack).at(0).file == "expected/notes.txt");
@@ -194,7 +194,7 @@ TEST_CASE("a pack has the results of an ordinary run for every algorithm and eve
             state.set(golden.options);
             const rasterizer::RasterState& raster = golden.options.raster;
             golden.scene.own_view =
-                scenes::as_seen_under(*golden.scene.own_view, {}, {raster.clip_depth, raster.depth_order});
+                scenes::with_clip_convention(*golden.scene.own_view, {}, {raster.clip_depth, raster.depth_order});
             peeling::Renderer renderer{golden.scene.list, *golden.scene.own_view, golden.profile, golden.options};
             const peeling::RenderResult usual = renderer.render(algorithm);
             if (usual.refusal) continue;

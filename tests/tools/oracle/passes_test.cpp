@@ -35,14 +35,14 @@ Loaded small_scene(const char* name) {
     return loaded;
 }
 
-std::vector<PassShown> passes_of(const Loaded& l, const char* profile, const std::string& algorithm) {
-    std::vector<PassShown> all;
+std::vector<PassReport> passes_of(const Loaded& l, const char* profile, const std::string& algorithm) {
+    std::vector<PassReport> all;
     passes({l.scene.list, l.view, *pipeline::find_profile(profile), l.options}, *peeling::find_algorithm(algorithm),
-           [&](PassShown&& pass) { all.push_back(std::move(pass)); });
+           [&](PassReport&& pass) { all.push_back(std::move(pass)); });
     return all;
 }
 
-const pipeline::Image& image_of(const PassShown& pass, const std::string& name) {
+const pipeline::Image& image_of(const PassReport& pass, const std::string& name) {
     for (const NamedImage& target : pass.targets)
         if (target.name == name) return target.image;
     FAIL("no target " << name);
@@ -66,7 +66,7 @@ TEST_CASE("every algorithm reports as many passes as it counts with every target
         const auto all = passes_of(l, "ideal", algorithm.name);
         int geometry = 0, screen = 0;
         std::set<std::string> unnamed;
-        for (const PassShown& pass : all) {
+        for (const PassReport& pass : all) {
             geometry += pass.kind == PassKind::geometry ? 1 : 0;
             screen += pass.kind == PassKind::full_screen ? 1 : 0;
             for (const NamedImage& target : pass.targets)
@@ -91,7 +91,7 @@ TEST_CASE("after pass k of a dual peel the min-max depths are the k-th nearest a
         if (fragment.shader_z < std::bit_cast<float>(fragments.opaque[fragment.pixel]))
             depths[fragment.pixel].insert(fragment.shader_z);
     std::size_t peeled = 0, wrong = 0, most = 0;
-    for (const PassShown& pass : all) {
+    for (const PassReport& pass : all) {
         if (pass.kind != PassKind::geometry) continue;
         const pipeline::Image& min_max = image_of(pass, pass.writes.at(0));
         for (std::size_t p = 0; p < depths.size(); ++p) {
@@ -113,7 +113,7 @@ TEST_CASE("after pass k of a dual peel the min-max depths are the k-th nearest a
 TEST_CASE("a query is reported with the pass that it follows and the last query ends the loop") {
     const auto all = passes_of(small_scene("teapot"), "geforce8", "front_to_back");
     std::vector<Query> queries;
-    for (const PassShown& pass : all) queries.insert(queries.end(), pass.queries.begin(), pass.queries.end());
+    for (const PassReport& pass : all) queries.insert(queries.end(), pass.queries.begin(), pass.queries.end());
     REQUIRE(queries.size() >= 2);
     CHECK(queries.back().count == 0);
     CHECK_FALSE(queries.back().goes_on);
@@ -156,7 +156,7 @@ TEST_CASE("a contact sheet has every target after every pass") {
     ContactSheet sheet;
     std::size_t rows = 0;
     std::set<std::string> columns;
-    for (const PassShown& pass : passes_of(l, "geforce8", "dual")) {
+    for (const PassReport& pass : passes_of(l, "geforce8", "dual")) {
         sheet.add(pass);
         ++rows;
         for (const NamedImage& target : pass.targets) columns.insert(target.name);

@@ -61,7 +61,7 @@ TEST_CASE("NaNs of a float target agree with each other and with no number") {
     other.color.codes[0] = 0xff800001u;  // a NaN with other bits
     own.color.codes[4] = 0x7f800000u;    // infinity
     other.color.codes[4] = 0x7f800001u;
-    CHECK(equal_places(own, other) == std::vector<bool>{true, false});
+    CHECK(equal_values(own, other) == std::vector<bool>{true, false});
 }
 
 TEST_CASE("a value that explains fewer pixels but more covered ones is reported") {

@@ -105,10 +105,10 @@ TEST_CASE("a device rejects what it lacks with an error message") {
 }
 
 TEST_CASE("a triangle that distinguishes two reciprocals has a weight within a relative 2^-22 of a multiple of 1/256") {
-    Dice dice{1};
+    RandomGenerator random{1};
     int found = 0, wrong = 0;
     for (int i = 0; i < 200; ++i) {
-        const std::optional<SplitTriangle> t = split_triangle(dice);
+        const std::optional<SplitTriangle> t = split_triangle(random);
         if (!t) continue;
         ++found;
         // Twice the areas of the three triangles with the centre of pixel (3, 3), divided by w, in binary64: the

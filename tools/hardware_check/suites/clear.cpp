@@ -84,7 +84,7 @@ Picture mask_picture(const pipeline::DeviceProfile& profile, bool shows_depth) {
     pipeline::Surface window{profile, {.depth = pipeline::DepthFormat::d16}};
     window.clear_depth(0xffff);
     window.clear_color(unpack(0x7f7f7f7f));
-    if (shows_depth) return {.reading = Reading::depth16, .image = window.depth()};
+    if (shows_depth) return {.reading = CaptureFormat::depth16, .image = window.depth()};
     return {.image = window.color()};
 }
 

@@ -173,9 +173,9 @@ Picture depth_picture(const pipeline::DeviceProfile& profile, const Setting& s, 
     surface.clear_depth(s.clear);
     surface.draw({.depth = {.enabled = true, .func = pipeline::CompareFunc::less, .write = true}}, std::move(soup));
     if (!s.shows_depth) return {.image = surface.color()};
-    return {
-        .reading = s.format == DepthFormat::d24 || s.format == DepthFormat::d24f ? Reading::depth24 : Reading::depth16,
-        .image = surface.depth()};
+    return {.reading = s.format == DepthFormat::d24 || s.format == DepthFormat::d24f ? CaptureFormat::depth24
+                                                                                     : CaptureFormat::depth16,
+            .image = surface.depth()};
 }
 
 // The greatest window z of the fixed-function pipeline, in the buffer's own values, which the test uses in its matrix.

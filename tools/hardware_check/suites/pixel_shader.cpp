@@ -82,7 +82,7 @@ Picture dot_zw(const DeviceProfile& profile, const Texture& bumps) {
     constexpr int right = middle_x + middle_side, bottom = middle_y + middle_side;
     // The capture contains the depth buffer only inside the square; nothing is compared around it. 0.25 % of its words
     // may differ by one unit: 104 do, by the last bits of the quotient.
-    return {.reading = Reading::depth16,
+    return {.reading = CaptureFormat::depth16,
             .image = surface.depth(),
             .hidden = {{0, 0, picture_width, middle_y},
                        {0, middle_y, middle_x, bottom},

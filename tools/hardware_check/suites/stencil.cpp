@@ -23,7 +23,7 @@ StencilTest stencil_test(const StencilFace& face) { return {.enabled = true, .fr
 // With _ZB the picture shows depth words with the stencil below them.
 Picture finished(const Surface& surface, bool shows_depth) {
     if (!shows_depth) return {.image = surface.color()};
-    return {.reading = Reading::depth24, .image = surface.depth(), .stencil = surface.stencil()};
+    return {.reading = CaptureFormat::depth24, .image = surface.depth(), .stencil = surface.stencil()};
 }
 
 // A black window with this stencil.

@@ -245,10 +245,10 @@ Drawing draw_w_buffering(std::string_view name, const pipeline::DeviceProfile& p
     if (s->is_w) state.depth_path = DepthPath::w_buffer;
     surface.draw(state, std::move(*soup));
     // The stencil is cleared to 0.
-    return {
-        Picture{
-            .reading = s->is_16 ? Reading::depth16 : Reading::depth24, .image = surface.depth(), .bound = bound_of(*s)},
-        {}};
+    return {Picture{.reading = s->is_16 ? CaptureFormat::depth16 : CaptureFormat::depth24,
+                    .image = surface.depth(),
+                    .bound = bound_of(*s)},
+            {}};
 }
 
 }  // namespace strata::hardware_check

@@ -104,7 +104,7 @@ Drawing draw_zpass_pixel_count(std::string_view name, const pipeline::DeviceProf
         picture.reports = {sized->draw(surface, *size)};
     else
         picture.reports = draw_squares(surface);
-    if (shows_depth) picture.reading = Reading::depth16;
+    if (shows_depth) picture.reading = CaptureFormat::depth16;
     picture.image = shows_depth ? surface.depth() : surface.color();
     return {std::move(picture), {}};
 }

@@ -84,7 +84,7 @@ BenchRun run_once(const BenchJob& job) {
 
     BenchRun run;
     if (result.refusal) {
-        run.refusal = result.refusal->sentence(job.scene->session.profile);
+        run.refusal = result.refusal->message(job.scene->session.profile);
         return run;
     }
     run.seconds = taken.count();

@@ -73,7 +73,7 @@ struct CostSweep {
     return sweep;
 }
 
-[[nodiscard]] Measured measured(CostSweep& sweep, std::size_t number, const CostTiming& timing) {
+[[nodiscard]] MeasuredCell measured(CostSweep& sweep, std::size_t number, const CostTiming& timing) {
     const auto start = std::chrono::steady_clock::now();
     const CostCell& cell = sweep.cells[number];
     CostScene& scene = sweep.scenes[cell.scene];
@@ -92,9 +92,9 @@ struct CostSweep {
     const auto in_folder = [&](const std::string& name) { return (std::filesystem::path(folder) / name).string(); };
     const auto rows = cost_rows(lines, read_journal(in_folder("timings.jsonl")).lines);
     scenes::write_file(in_folder("cost.csv"), table_csv(rows));
-    std::string sentences, told;
-    for (const std::string& sentence : sentences_of(rows)) sentences += sentence + '\n';
-    scenes::write_file(in_folder("sentences.txt"), sentences);
+    std::string descriptions, told;
+    for (const std::string& message : descriptions_of(rows)) descriptions += message + '\n';
+    scenes::write_file(in_folder("sentences.txt"), descriptions);
     std::string scene;
     for (const CostRow& row : rows) {
         if (row.scene == scene) continue;
@@ -111,7 +111,7 @@ struct CostSweep {
                 fmt::format("{}: {} of {} cells on the frontier\n", name, frontier_of(points).size(), points.size());
         }
     }
-    return sentences + told +
+    return descriptions + told +
            fmt::format("All of it: {0}/cost.csv, {0}/sentences.txt, {0}/results.csv and {0}/results.jsonl\n", folder);
 }
 
@@ -126,7 +126,7 @@ struct CostSweep {
             .measure = [&](std::size_t i) { return measured(sweep, i, options.timing); },
             .csv = cost_csv,
             .summary = [folder = options.run.output](const Lines& lines) { return report(lines, folder); },
-            .alike =
+            .timing_class =
                 [&](std::size_t i) {
                     const CostCell& cell = sweep.cells[i];
                     return fmt::format("{} {} {}", cell.scene, cell.chain.has_value(), cell.algorithm->name);
@@ -136,7 +136,7 @@ struct CostSweep {
 // The text of the page of --report; `folder` contains the times.
 [[nodiscard]] Findings findings(const Lines& lines, const std::string& folder) {
     const auto rows = cost_rows(lines, read_journal((std::filesystem::path(folder) / "timings.jsonl").string()).lines);
-    return {found_sentence(rows), choice_table(rows), "Each choice next to the default", {}};
+    return {summary_text(rows), choice_table(rows), "Each choice next to the default", {}};
 }
 
 // "frontier.teapot.default.svg".

@@ -75,24 +75,25 @@ std::vector<std::size_t> frontier_of(const std::vector<CostPoint>& points) {
     return frontier;
 }
 
-std::vector<std::string> sentences_of(const std::vector<CostRow>& rows) {
+std::vector<std::string> descriptions_of(const std::vector<CostRow>& rows) {
     const auto defaults = defaults_of(rows);
-    std::vector<std::string> sentences;
+    std::vector<std::string> descriptions;
     for (const CostRow& row : rows) {
         if (row.knob == "default") continue;
         if (row.is_chain()) {
-            sentences.push_back(chain_sentence(row));
+            descriptions.push_back(chain_sentence(row));
         } else if (!row.refusal.empty()) {
-            sentences.push_back(fmt::format("{}: {} {} is refused: {}.", row.scene, row.knob, row.value, row.refusal));
+            descriptions.push_back(
+                fmt::format("{}: {} {} is refused: {}.", row.scene, row.knob, row.value, row.refusal));
         } else {
             const CostRow& standard = *defaults.at(row.scene);
-            sentences.push_back(fmt::format(
+            descriptions.push_back(fmt::format(
                 "{}: {} {}{} instead of the default: {:.4f} % of pixels differ, RMSE {:.6g} instead of {:.6g}{}.",
                 row.scene, row.knob, row.value, row.opened.empty() ? "" : fmt::format(" (with {})", row.opened),
                 100 * row.from_default, row.rmse, standard.rmse, times_of(row, standard)));
         }
     }
-    return sentences;
+    return descriptions;
 }
 
 Table choice_table(const std::vector<CostRow>& rows) {
@@ -127,7 +128,7 @@ Table choice_table(const std::vector<CostRow>& rows) {
     return table;
 }
 
-std::string found_sentence(const std::vector<CostRow>& rows) {
+std::string summary_text(const std::vector<CostRow>& rows) {
     std::size_t tried = 0, refused = 0, same = 0, apart = 0;
     const auto defaults = defaults_of(rows);
     for (const CostRow& row : rows) {

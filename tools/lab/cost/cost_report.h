@@ -24,10 +24,10 @@ struct CostPoint {
 // to the default's if they differ by more than the noise of the rounds.
 [[nodiscard]] Table choice_table(const std::vector<CostRow>& rows);
 // A summary of all rows.
-[[nodiscard]] std::string found_sentence(const std::vector<CostRow>& rows);
+[[nodiscard]] std::string summary_text(const std::vector<CostRow>& rows);
 
 // One sentence per row: the change in error and time, or the cost of a link of the chain.
-[[nodiscard]] std::vector<std::string> sentences_of(const std::vector<CostRow>& rows);
+[[nodiscard]] std::vector<std::string> descriptions_of(const std::vector<CostRow>& rows);
 
 // Errors and times of all rows, as CSV.
 [[nodiscard]] std::string table_csv(const std::vector<CostRow>& rows);

@@ -105,7 +105,7 @@ CostResult run_cell(const CostScene& scene, const CostCell& cell) {
     }};
     const RenderResult result = rendered(scene.session, cell, counted, {.alteration = &look});
     if (result.refusal) {
-        found.refusal = result.refusal->sentence(cell.profile);
+        found.refusal = result.refusal->message(cell.profile);
         return found;
     }
     const peeling::RealImage picture = peeling::real_image(result.frame.color);

@@ -80,13 +80,13 @@ struct Layer {
 };
 
 // Depths that are equal in binary64 get the same layer number.
-SeenPixel pixel_of(std::vector<Layer> layers, std::array<double, 3> background) {
+ResultPixel pixel_of(std::vector<Layer> layers, std::array<double, 3> background) {
     std::stable_sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.depth < b.depth; });
-    SeenPixel pixel{.fragments = {}, .layers = static_cast<int>(layers.size()), .color = background};
-    int place = 0;
+    ResultPixel pixel{.fragments = {}, .layers = static_cast<int>(layers.size()), .color = background};
+    int layer = 0;
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        if (i > 0 && layers[i].depth - layers[i - 1].depth > depth_noise) ++place;
-        pixel.fragments.push_back({layers[i].primitive, place, layers[i].depth});
+        if (i > 0 && layers[i].depth - layers[i - 1].depth > depth_noise) ++layer;
+        pixel.fragments.push_back({layers[i].primitive, layer, layers[i].depth});
     }
     for (std::size_t i = layers.size(); i-- > 0;)
         for (std::size_t c = 0; c < 3; ++c) {
@@ -99,7 +99,7 @@ SeenPixel pixel_of(std::vector<Layer> layers, std::array<double, 3> background) 
 
 }  // namespace
 
-Seen ExactCase::seen() const {
+ResultPixels ExactCase::visible_pixels() const {
     const rasterizer::Rect frame{0, 0, hard_.width, hard_.height};
     std::vector<std::vector<Layer>> layers(frame.area());
     std::vector<Layer> nearest(frame.area(), {std::max(hard_.depth_near, hard_.depth_far), 0, {0, 0, 0, 1}});
@@ -123,12 +123,12 @@ Seen ExactCase::seen() const {
         visit(surface, [&](std::size_t p, const Layer& layer) {
             if (layer.depth < nearest[p].depth) layers[p].push_back(layer);
         });
-    Seen seen;
+    ResultPixels visible_pixels;
     for (std::size_t p = 0; p < layers.size(); ++p) {
         const Rgba& behind = nearest[p].color;
-        seen.push_back(pixel_of(std::move(layers[p]), {behind[0], behind[1], behind[2]}));
+        visible_pixels.push_back(pixel_of(std::move(layers[p]), {behind[0], behind[1], behind[2]}));
     }
-    return seen;
+    return visible_pixels;
 }
 
 // The extreme window positions of a corner in front of the eye are at the ends of its coordinates' ranges, because x /

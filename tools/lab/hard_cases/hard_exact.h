@@ -18,7 +18,7 @@
 
 #include "peeling/truth/real_triangle.h"
 #include "scenes/procedural/hard_cases/hard_case.h"
-#include "tools/lab/hard_cases/hard_seen.h"
+#include "tools/lab/hard_cases/hard_result.h"
 
 namespace strata::tools {
 
@@ -35,7 +35,7 @@ class ExactCase {
     ExactCase(const scenes::HardCase& hard, const scenes::Scene& scene, const pipeline::View& view);
 
     // Per pixel, row by row: the visible fragments, and their colour blended over the opaque surface in binary64.
-    [[nodiscard]] Seen seen() const;
+    [[nodiscard]] ResultPixels visible_pixels() const;
     [[nodiscard]] std::vector<bool> open_pixels(const Slack& slack) const;
     // The depth of a triangle's plane at a pixel's centre, whether or not the triangle covers it.
     [[nodiscard]] double depth_at(std::uint32_t primitive, std::size_t pixel) const;

@@ -24,13 +24,13 @@ class PathCase {
   public:
     explicit PathCase(const scenes::HardCase& hard);
     ~PathCase();
-    [[nodiscard]] Flicker flicker(const Look& look) const;
-    // The flicker of the visible fragments of `look` sorted by their exact depths.
-    [[nodiscard]] Flicker flicker_of_exact_depths(const Look& look) const;
+    [[nodiscard]] Flicker flicker(const RenderFunction& render) const;
+    // The flicker of the visible fragments of `render` sorted by their exact depths.
+    [[nodiscard]] Flicker flicker_of_exact_depths(const RenderFunction& render) const;
 
   private:
     struct Frame;
-    [[nodiscard]] Flicker flicker(const std::function<Seen(std::size_t frame)>& seen_at) const;
+    [[nodiscard]] Flicker flicker(const std::function<ResultPixels(std::size_t frame)>& pixels_of) const;
 
     scenes::Scene scene_;
     std::vector<Frame> frames_;

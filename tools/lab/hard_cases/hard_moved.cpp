@@ -26,10 +26,10 @@ double depth_step(DepthFormat format) {
     return 0;  // unreachable: the enum is closed
 }
 
-Looker looker_of(const DeviceProfile& profile, DepthFormat depth, const peeling::Algorithm& algorithm,
-                 const HardRow& row) {
+RendererProperties properties_of(const DeviceProfile& profile, DepthFormat depth, const peeling::Algorithm& algorithm,
+                                 const HardRow& row) {
     const bool has_fault = std::any_of(row.diagnostics.begin(), row.diagnostics.end(),
-                                       [](const Diagnostic& d) { return misplaces(d.fault); });
+                                       [](const Diagnostic& d) { return explains_misplaced(d.fault); });
     return {.grid = std::ldexp(1.0, -profile.raster.subpixel_bits),
             .depth = depth_step(depth),
             .is_ordered = algorithm.ties != peeling::TiePolicy::none,
@@ -46,20 +46,20 @@ bool is_moved(const peeling::Algorithm& algorithm) {
 MovedRow MovedMachine::run(const DeviceProfile& profile, DepthFormat depth, const peeling::Algorithm& algorithm,
                            const HardRow& row) const {
     const scenes::HardCase& hard = moved_.hard();
-    const Look as_is = [&](const scenes::Scene& scene, const View& view) {
+    const RenderFunction as_is = [&](const scenes::Scene& scene, const View& view) {
         peeling::Renderer renderer{scene.list, view, profile, hard_options(hard, depth)};
-        return look(renderer, algorithm, hard.width);
+        return render(renderer, algorithm, hard.width);
     };
-    MovedRow moved{.stability = moved_.stability(looker_of(profile, depth, algorithm, row), as_is),
+    MovedRow moved{.stability = moved_.stability(properties_of(profile, depth, algorithm, row), as_is),
                    .own = path_.flicker(as_is),
                    .paths = {}};
     if (algorithm.name != "front_to_back") return moved;
     for (const auto& path : depth_paths()) {
-        const Look depths = [&](const scenes::Scene& scene, const View& view) {
+        const RenderFunction depths = [&](const scenes::Scene& scene, const View& view) {
             peeling::RenderOptions options = hard_options(hard, depth);
             options.depth_path = path.value;
             peeling::Renderer renderer{scene.list, view, profile, options};
-            return look_at_depths(renderer, algorithm);
+            return result_of_depths(renderer, algorithm);
         };
         try {
             moved.paths.emplace_back(path.name, path_.flicker(depths));

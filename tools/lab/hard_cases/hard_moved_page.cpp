@@ -122,7 +122,7 @@ std::string cause(const pipeline::DeviceProfile& most, const pipeline::DevicePro
 }
 
 // For the format at which two devices differ most.
-std::string sentence_of(const HardSweep& sweep, const std::vector<MovedLine>& lines) {
+std::string description_of(const HardSweep& sweep, const std::vector<MovedLine>& lines) {
     const MovedLine *most = nullptr, *least = nullptr;
     for (const MovedLine& a : lines)
         for (const MovedLine& b : lines) {
@@ -153,7 +153,7 @@ std::string sentence_of(const HardSweep& sweep, const std::vector<MovedLine>& li
 std::string moved_tables(const HardSweep& sweep, const std::vector<const ordered_json*>& lines) {
     const std::vector<MovedLine> shown = shown_lines(lines);
     if (shown.empty()) return "";
-    return table_of(shown) + paths_of(lines) + sentence_of(sweep, shown);
+    return table_of(shown) + paths_of(lines) + description_of(sweep, shown);
 }
 
 std::string moved_overview(const HardSweep& sweep, const Lines& lines) {

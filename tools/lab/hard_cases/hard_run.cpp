@@ -27,7 +27,7 @@ std::string_view name_of(HardVerdict verdict) noexcept {
     return "";  // unreachable: the enum is closed
 }
 
-bool misplaces(Fault fault) noexcept {
+bool explains_misplaced(Fault fault) noexcept {
     switch (fault) {
         case Fault::endless:
         case Fault::early_end:
@@ -133,7 +133,7 @@ bool has(const std::vector<Diagnostic>& all, Fault fault) {
 // True if a diagnostic that explains misplaced fragments has exactly that many pixels.
 bool is_named(const std::vector<Diagnostic>& all, std::uint64_t pixels) {
     return std::any_of(all.begin(), all.end(),
-                       [&](const Diagnostic& d) { return misplaces(d.fault) && d.pixels == pixels; });
+                       [&](const Diagnostic& d) { return explains_misplaced(d.fault) && d.pixels == pixels; });
 }
 
 // Raises the verdict; it is never lowered.
@@ -228,9 +228,9 @@ std::vector<std::string> HardMachine::unlike_ways(const peeling::Algorithm& algo
 
 namespace {
 
-HardRow refused(std::string sentence) {
+HardRow refused(std::string message) {
     HardRow row;
-    row.refusal = std::move(sentence);
+    row.refusal = std::move(message);
     row.verdict = HardVerdict::refused;
     return row;
 }
@@ -256,7 +256,7 @@ HardRow HardMachine::run(const peeling::Algorithm& algorithm) {
     if (const std::string reason = reason_to_leave_out(hard_, algorithm); !reason.empty()) return refused(reason);
     peeling::Renderer& renderer = *ways_.front().renderer;
     const peeling::RenderResult result = renderer.render(algorithm);
-    if (result.refusal) return refused(result.refusal->sentence(profile_));
+    if (result.refusal) return refused(result.refusal->message(profile_));
     HardRow row;
     std::vector<peeling::RegionTrace> traces;
     static_cast<void>(renderer.render_traced(algorithm, traces));

@@ -85,7 +85,7 @@ class HardMachine {
                                                   std::optional<pipeline::DepthFormat> depth);
 
 // True if the fault explains misplaced fragments.
-[[nodiscard]] bool misplaces(pipeline::Fault fault) noexcept;
+[[nodiscard]] bool explains_misplaced(pipeline::Fault fault) noexcept;
 
 // The complete result of the default run, for inspection.
 [[nodiscard]] peeling::RenderResult picture_of(const scenes::HardCase& hard, const pipeline::DeviceProfile& profile,

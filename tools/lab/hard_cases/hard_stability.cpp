@@ -27,21 +27,22 @@ std::vector<Move> moves_of(const scenes::Scene& scene) {
     return moves;
 }
 
-bool has_equal_depths(const SeenPixel& pixel) {
+bool has_equal_depths(const ResultPixel& pixel) {
     std::vector<double> depths;
-    for (const SeenFragment& f : pixel.fragments) depths.push_back(f.depth);
+    for (const ResultFragment& f : pixel.fragments) depths.push_back(f.depth);
     std::sort(depths.begin(), depths.end());
     return std::adjacent_find(depths.begin(), depths.end()) != depths.end();
 }
 
 std::size_t index_of(PixelClass which) { return static_cast<std::size_t>(which); }
 
-void judge(StabilityRow& row, const Looker& looker) {
+void judge(StabilityRow& row, const RendererProperties& renderer) {
     const auto say = [&](StabilityVerdict verdict, std::string reason) {
         row.verdict = std::max(row.verdict, verdict);
         row.reasons.push_back(std::move(reason));
     };
-    const auto worst = looker.is_excused || row.names_misplaced ? StabilityVerdict::breaks : StabilityVerdict::unstable;
+    const auto worst =
+        renderer.is_excused || row.reports_misplaced ? StabilityVerdict::breaks : StabilityVerdict::unstable;
     for (std::size_t i = 0; i < move_sizes.size(); ++i) {
         const SizeRow& size = row.by_size[i];
         const Changes& beyond = size.ours[index_of(PixelClass::beyond)];
@@ -61,7 +62,7 @@ void judge(StabilityRow& row, const Looker& looker) {
                             device.gained, device.lost, device.reordered));
     }
     if (row.permuted > 0)
-        say(looker.is_ordered ? worst : StabilityVerdict::degrades,
+        say(renderer.is_ordered ? worst : StabilityVerdict::degrades,
             fmt::format("another order of triangles changes {} pixels without equal depths", row.permuted));
 }
 
@@ -88,16 +89,16 @@ MovedCase::MovedCase(const scenes::HardCase& hard)
     : hard_{&hard},
       scene_{make_hard_case({}, hard)},
       exact_{std::make_unique<const ExactCase>(hard, scene_, *scene_.own_view)},
-      seen_{exact_->seen()} {
+      visible_pixels_{exact_->visible_pixels()} {
     for (const Move& move : moves_of(scene_))
-        draws_.push_back({move, ExactCase{hard, moved(scene_, move), *scene_.own_view}.seen()});
+        draws_.push_back({move, ExactCase{hard, moved(scene_, move), *scene_.own_view}.visible_pixels()});
 }
 
 MovedCase::~MovedCase() = default;
 
-std::vector<PixelClass> MovedCase::classes(const Looker& looker, MoveSize size) const {
+std::vector<PixelClass> MovedCase::classes(const RendererProperties& renderer, MoveSize size) const {
     const Slack move{.relative = share_of(size)};
-    const Slack device{.relative = share_of(size), .pixels = looker.grid, .depth = 2 * looker.depth + 0x1p-22};
+    const Slack device{.relative = share_of(size), .pixels = renderer.grid, .depth = 2 * renderer.depth + 0x1p-22};
     const std::vector<bool> in_move = exact_->open_pixels(move), in_device = exact_->open_pixels(device);
     std::vector<PixelClass> classes;
     for (std::size_t p = 0; p < in_move.size(); ++p)
@@ -107,36 +108,38 @@ std::vector<PixelClass> MovedCase::classes(const Looker& looker, MoveSize size) 
     return classes;
 }
 
-void MovedCase::permute(const Looker& looker, const Look& look, const Seen& before, StabilityRow& row) const {
+void MovedCase::permute(const RendererProperties& renderer, const RenderFunction& render, const ResultPixels& before,
+                        StabilityRow& row) const {
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        const Seen after = look(permuted(scene_, seed).scene, *scene_.own_view).seen;
+        const ResultPixels after = render(permuted(scene_, seed).scene, *scene_.own_view).pixels;
         for (std::size_t p = 0; p < before.size(); ++p)
             if (before[p].color != after[p].color)
-                ++(looker.is_ordered && has_equal_depths(before[p]) ? row.permuted_ties : row.permuted);
+                ++(renderer.is_ordered && has_equal_depths(before[p]) ? row.permuted_ties : row.permuted);
     }
 }
 
-StabilityRow MovedCase::stability(const Looker& looker, const Look& look) const {
+StabilityRow MovedCase::stability(const RendererProperties& renderer, const RenderFunction& render) const {
     StabilityRow row;
-    const Looked before = look(scene_, *scene_.own_view);
+    const RenderedPixels before = render(scene_, *scene_.own_view);
     if (!before.refusal.empty()) return row.verdict = StabilityVerdict::refused, row;
-    row.names_misplaced = before.names_misplaced;
-    const Shown what = looker.is_ordered ? Shown::in_order : Shown::in_any_order;
-    const std::array classes_of{classes(looker, MoveSize::unit), classes(looker, MoveSize::relative)};
+    row.reports_misplaced = before.reports_misplaced;
+    const FragmentOrderMatch what =
+        renderer.is_ordered ? FragmentOrderMatch::in_order : FragmentOrderMatch::in_any_order;
+    const std::array classes_of{classes(renderer, MoveSize::unit), classes(renderer, MoveSize::relative)};
     for (const Draw& draw : draws_) {
         SizeRow& size = row.by_size[static_cast<std::size_t>(draw.move.size)];
         const auto& pixels = classes_of[static_cast<std::size_t>(draw.move.size)];
-        const Looked after = look(moved(scene_, draw.move), *scene_.own_view);
-        row.names_misplaced = row.names_misplaced || after.names_misplaced;
+        const RenderedPixels after = render(moved(scene_, draw.move), *scene_.own_view);
+        row.reports_misplaced = row.reports_misplaced || after.reports_misplaced;
         ++size.moves;
         for (std::size_t p = 0; p < pixels.size(); ++p) {
-            size.exact += changes(seen_[p], draw.exact[p]);
-            size.ours[index_of(pixels[p])] += changes(before.seen[p], after.seen[p]);
-            if (pixels[p] == PixelClass::beyond && !shows(after.seen[p], draw.exact[p], what)) ++size.wrong_beyond;
+            size.exact += changes(visible_pixels_[p], draw.exact[p]);
+            size.ours[index_of(pixels[p])] += changes(before.pixels[p], after.pixels[p]);
+            if (pixels[p] == PixelClass::beyond && !matches(after.pixels[p], draw.exact[p], what)) ++size.wrong_beyond;
         }
     }
-    permute(looker, look, before.seen, row);
-    judge(row, looker);
+    permute(renderer, render, before.pixels, row);
+    judge(row, renderer);
     return row;
 }
 

@@ -1,8 +1,8 @@
 // tools/lab/hard_cases/hard_stability.h - measures how much a renderer's result changes if the input moves so little
 // that the exact answer hardly changes.
 // Rule     The case is drawn once unmoved and once for each move (hard_moves.h): eight seeds for each size, and each
-//          coordinate alone if the case has at most eight triangles. Changes are counted (hard_seen.h) for the renderer
-//          and for the exact answer; their ratio is the amplification. A pixel is counted
+//          coordinate alone if the case has at most eight triangles. Changes are counted (hard_result.h) for the
+//          renderer and for the exact answer; their ratio is the amplification. A pixel is counted
 //            within the move    if the exact answer there is open to the move itself;
 //            within the device  if it is open when corners are also off by one step of the device's grid, and depths by
 //                               two codes of the buffer and 2^-22 for the arithmetic of its vertices;
@@ -25,17 +25,17 @@
 
 #include "scenes/procedural/hard_cases/hard_case.h"
 #include "tools/lab/hard_cases/hard_moves.h"
-#include "tools/lab/hard_cases/hard_seen.h"
+#include "tools/lab/hard_cases/hard_result.h"
 
 namespace strata::tools {
 
 class ExactCase;  // hard_exact.h
 
 // Renders a scene and returns its visible result.
-using Look = std::function<Looked(const scenes::Scene& scene, const pipeline::View& view)>;
+using RenderFunction = std::function<RenderedPixels(const scenes::Scene& scene, const pipeline::View& view)>;
 
 // Properties of the renderer.
-struct Looker {
+struct RendererProperties {
     double grid = 0;   // a step of the position grid, in pixels
     double depth = 0;  // a code of the depth buffer, in the depth range 0 to 1
     bool is_ordered = true;
@@ -60,7 +60,7 @@ struct SizeRow {
 struct StabilityRow {
     std::array<SizeRow, move_sizes.size()> by_size;
     std::uint64_t permuted = 0, permuted_ties = 0;  // pixels that change, without and with two fragments of one depth
-    bool names_misplaced = false;
+    bool reports_misplaced = false;
     StabilityVerdict verdict = StabilityVerdict::stable;
     std::vector<std::string> reasons;
 };
@@ -70,22 +70,23 @@ class MovedCase {
   public:
     explicit MovedCase(const scenes::HardCase& hard);
     ~MovedCase();
-    [[nodiscard]] StabilityRow stability(const Looker& looker, const Look& look) const;
+    [[nodiscard]] StabilityRow stability(const RendererProperties& renderer, const RenderFunction& render) const;
     [[nodiscard]] const scenes::HardCase& hard() const noexcept { return *hard_; }
     [[nodiscard]] const scenes::Scene& scene() const noexcept { return scene_; }
 
   private:
     struct Draw {
         Move move;
-        Seen exact;
+        ResultPixels exact;
     };
-    [[nodiscard]] std::vector<PixelClass> classes(const Looker& looker, MoveSize size) const;
-    void permute(const Looker& looker, const Look& look, const Seen& before, StabilityRow& row) const;
+    [[nodiscard]] std::vector<PixelClass> classes(const RendererProperties& renderer, MoveSize size) const;
+    void permute(const RendererProperties& renderer, const RenderFunction& render, const ResultPixels& before,
+                 StabilityRow& row) const;
 
     const scenes::HardCase* hard_;
     scenes::Scene scene_;
     std::unique_ptr<const ExactCase> exact_;
-    Seen seen_;
+    ResultPixels visible_pixels_;
     std::vector<Draw> draws_;
 };
 

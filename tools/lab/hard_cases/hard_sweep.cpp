@@ -106,7 +106,7 @@ std::optional<MovedRow> moved_row(const HardSweep& sweep, const HardCell& cell, 
     return cache.moved->run(*cell.profile, cell.format, *cell.algorithm, row);
 }
 
-Measured hard_measured(const HardSweep& sweep, std::size_t number, HardCache& cache) {
+MeasuredCell hard_measured(const HardSweep& sweep, std::size_t number, HardCache& cache) {
     const auto start = std::chrono::steady_clock::now();
     const HardCell cell = hard_cell(sweep, number);
     if (!cache.machine || cache.group != cell.group) {
@@ -152,7 +152,7 @@ Work hard_work(const HardSweep& sweep) {
                            std::size_t i) { return hard_measured(sweep, i, *cache); },
             .csv = [](const Lines& lines) { return csv_of_columns(hard_columns(), lines); },
             .summary = [&sweep](const Lines& lines) { return summary(sweep, lines); },
-            .alike = [&sweep](std::size_t i) { return std::string{hard_cell(sweep, i).hard->name}; },
+            .timing_class = [&sweep](std::size_t i) { return std::string{hard_cell(sweep, i).hard->name}; },
             .findings = [&sweep](const Lines& lines) { return findings(sweep, lines); },
             .caption =
                 [](const std::string& name, const Lines&) {
@@ -205,18 +205,18 @@ Table summary_table(const HardSweep& sweep, const Lines& lines) {
 }
 
 std::vector<std::string> failures(const Lines& lines) {
-    std::vector<std::string> sentences;
+    std::vector<std::string> messages;
     for (const ordered_json& line : lines) {
         if (line["verdict"] == name_of(HardVerdict::failed))
-            sentences.push_back(failure_of(line, "failed", line["reasons"]));
-        if (is_unstable(line)) sentences.push_back(failure_of(line, "unstable", line["stability"]["reasons"]));
+            messages.push_back(failure_of(line, "failed", line["reasons"]));
+        if (is_unstable(line)) messages.push_back(failure_of(line, "unstable", line["stability"]["reasons"]));
     }
-    return sentences;
+    return messages;
 }
 
 std::string summary(const HardSweep& sweep, const Lines& lines) {
     std::string text = to_text(summary_table(sweep, lines));
-    for (const std::string& sentence : failures(lines)) text += sentence + '\n';
+    for (const std::string& message : failures(lines)) text += message + '\n';
     return text;
 }
 
@@ -227,10 +227,10 @@ Findings findings(const HardSweep& sweep, const Lines& lines) {
     for (const HardVerdict verdict : hard_verdicts)
         if (const int count = counts[std::string{name_of(verdict)}]; count > 0)
             verdicts += fmt::format("{}{}: {}", verdicts.empty() ? "" : ", ", name_of(verdict), count);
-    const std::string sentence =
+    const std::string message =
         fmt::format("{} scene{} in {} combinations of algorithm, device and depth format; {}", sweep.cases.size(),
                     sweep.cases.size() == 1 ? "" : "s", lines.size(), verdicts);
-    return {sentence + ".", summary_table(sweep, lines),
+    return {message + ".", summary_table(sweep, lines),
             "How often a scene came out stable, degrades, or breaks as the hardware did", failures(lines)};
 }
 

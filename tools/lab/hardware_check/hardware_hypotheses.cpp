@@ -34,18 +34,18 @@ bool has(hc::Subjects set, Subject subject) { return (set >> static_cast<unsigne
 // True if a picture of this suite, in this reading, depends on the subject. Depth pictures never depend on colours, nor
 // colours on written depths, whatever the suite's list; and if depths are interpolated without division, depth values
 // do not depend on coordinates.
-bool can_tell(const hc::Suite& suite, hc::Reading reading, Subject subject) {
-    const bool shows_depth = reading == hc::Reading::depth16 || reading == hc::Reading::depth24;
+bool can_tell(const hc::Suite& suite, hc::CaptureFormat reading, Subject subject) {
+    const bool shows_depth = reading == hc::CaptureFormat::depth16 || reading == hc::CaptureFormat::depth24;
     if (subject == (shows_depth ? Subject::color : Subject::window_depth)) return false;
-    if (shows_depth && subject == Subject::coordinates && has(suite.tells, Subject::window_depth)) return false;
-    return has(suite.tells, subject);
+    if (shows_depth && subject == Subject::coordinates && has(suite.determines, Subject::window_depth)) return false;
+    return has(suite.determines, subject);
 }
 
 // Draws the capture once under each hypothesis, with the rest of the profile as given.
 Verdicts verdicts_of(const Capture& capture, const pipeline::DeviceProfile& profile, Subject subject,
                      const std::vector<NamedHypothesis>& hypotheses) {
     const hc::Suite* const suite = hc::find_suite(capture.suite);
-    if (suite == nullptr || suite->tells == 0) return {};
+    if (suite == nullptr || suite->determines == 0) return {};
     const hc::Drawing given = drawn(capture, profile);
     if (!given.picture || !can_tell(*suite, given.picture->reading, subject)) return {};
     const pipeline::Image image = read_capture(capture.path);

@@ -42,7 +42,7 @@ void add_difference(PlainPage& page, const CheckedPicture& p, const pipeline::De
 
 PlainPage page_of(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile) {
     PlainPage page{"The profile " + std::string(profile.name) + " against a real chip", "strata hardware-check"};
-    page.sentence(found(checked));
+    page.lead(found(checked));
     page.heading("Suites");
     page.table(suite_table(checked), "Pictures and pixels of each suite");
     if (number_of(checked, "outside") + number_of(checked, "within bound") > 0) {

@@ -71,7 +71,7 @@ std::vector<Cell> all_cells(const InvarianceOptions& options, CellRunner& runner
     return runner.expanded(cells);
 }
 
-Measured measured(std::size_t number, const Cell& cell, CellRunner& runner, const std::string& image_folder) {
+MeasuredCell measured(std::size_t number, const Cell& cell, CellRunner& runner, const std::string& image_folder) {
     const auto start = std::chrono::steady_clock::now();
     const CellResult result = runner.run(cell);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
@@ -93,7 +93,7 @@ Work work_of(const InvarianceOptions& options, const std::vector<Cell>& cells, C
                            std::size_t i) { return measured(i, cells[i], runner, image_folder); },
             .csv = csv_of,
             .summary = [folder](const Lines& lines) { return summary(lines, folder); },
-            .alike =
+            .timing_class =
                 [described](std::size_t i) {
                     const nlohmann::ordered_json line = described(i);
                     return json_text({line["scene"], line["width"], line["height"], line["algorithm"]});
@@ -123,7 +123,7 @@ int invariance(InvarianceOptions& options) {
     Work work = work_of(options, cells, runner);
     work.report = options.report;
     work.findings = [](const Lines& lines) {
-        return Findings{found_sentence(lines),
+        return Findings{summary_text(lines),
                         summary_table(lines),
                         "A row a cell: what varies, and what was found",
                         {same_everywhere(lines)}};

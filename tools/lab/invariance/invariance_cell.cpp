@@ -89,7 +89,7 @@ const pipeline::View* CellRunner::own_view(const Cell& cell) {
     if (known != own_views_.end()) return &known->second;
     RunOptions pack;
     take_pack_state(pack, cell.scene);
-    const pipeline::View view = scenes::as_seen_under(*scene(cell.scene).own_view, pack.view_convention, {});
+    const pipeline::View view = scenes::with_clip_convention(*scene(cell.scene).own_view, pack.view_convention, {});
     return &own_views_.emplace(cell.scene, view).first->second;
 }
 
@@ -141,7 +141,7 @@ CellResult CellRunner::run(const Cell& cell) {
     peeling::Experiment experiment = experiment_of(cell, resources_);
     experiment.render.second_list = split_list(cell);
     result.measured = peeling::measure(scene(cell.scene).list, result.view.view, device, experiment);
-    if (result.measured.refusal) result.refusal = result.measured.refusal->sentence(device);
+    if (result.measured.refusal) result.refusal = result.measured.refusal->message(device);
     return result;
 }
 

@@ -112,7 +112,7 @@ std::string same_everywhere(const Lines& lines) {
     return (lines.size() == 1 ? "" : "in every cell: ") + text;
 }
 
-std::string found_sentence(const Lines& lines) {
+std::string summary_text(const Lines& lines) {
     std::size_t right = 0, wrong = 0, endless = 0, refused = 0, compared = 0;
     for (const ordered_json& line : lines) {
         const std::string outcome = line.at("outcome");
@@ -141,7 +141,7 @@ std::string summary(const Lines& lines, const std::string& folder) {
     Table table = summary_table(lines);
     if (table.rows.size() > most_rows) table.rows.resize(most_rows);
     const std::string more = lines.size() > most_rows ? fmt::format("and {} more\n", lines.size() - most_rows) : "";
-    return found_sentence(lines) + '\n' + same_everywhere(lines) + '\n' + to_text(table) + more +
+    return summary_text(lines) + '\n' + same_everywhere(lines) + '\n' + to_text(table) + more +
            fmt::format(
                "All of it: {0}/results.csv and {0}/results.jsonl. A page with plots, {0}/index.html: "
                "tools/invariance/report.py {0}\n",

@@ -35,7 +35,7 @@ enum class Knobs : std::uint8_t { varying, alike };
 // The knobs that do not vary.
 [[nodiscard]] std::string same_everywhere(const Lines& lines);
 // The result, as a sentence.
-[[nodiscard]] std::string found_sentence(const Lines& lines);
+[[nodiscard]] std::string summary_text(const Lines& lines);
 
 // All of these, with the first 50 rows of the table, and where the complete results and the page are.
 [[nodiscard]] std::string summary(const Lines& lines, const std::string& folder);

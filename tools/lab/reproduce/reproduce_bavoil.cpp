@@ -113,7 +113,7 @@ Section alphas(const ReproduceOptions& options, const Model& model, const pipeli
 Page reproduce_bavoil(const ReproduceOptions& options, const std::vector<Model>& given) {
     std::vector<Model> models{{"teapot", scenes::load_scene("teapot", {})}};
     models.insert(models.end(), given.begin(), given.end());
-    Page page{"Bavoil and Myers 2008: Order Independent Transparency with Dual Depth Peeling", page_sentence,
+    Page page{"Bavoil and Myers 2008: Order Independent Transparency with Dual Depth Peeling", page_note,
               bavoil_2008_link};
     Section passes{"Geometry passes: N/2 + 1",
                    "Printed: N/2 + 1 passes for N layers, against N of front-to-back peeling (whose last, empty "

@@ -294,7 +294,7 @@ Section table(const ReproduceOptions& options, const std::vector<Model>& models)
 
 Page reproduce_carr(const ReproduceOptions& options, const std::vector<Model>& models) {
     return {"Carr, Mech and Miller 2008: Coherent Layer Peeling",
-            page_sentence,
+            page_note,
             carr_2008_link,
             {beam(options), table(options, models)}};
 }

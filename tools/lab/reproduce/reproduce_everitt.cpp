@@ -93,7 +93,7 @@ Section composites(const ReproduceOptions& options, const Teapot& teapot) {
 Page reproduce_everitt(const ReproduceOptions& options) {
     const Teapot teapot;
     return {"Everitt 2001: Interactive Order-Independent Transparency",
-            page_sentence,
+            page_note,
             everitt_2001_link,
             {layers(options, teapot), composites(options, teapot)}};
 }

@@ -71,7 +71,7 @@ constexpr auto head = R"(<!doctype html>
 
 void write_page(const std::string& folder, const Page& page) {
     std::string text =
-        fmt::format(head, scenes::markup_text(page.title), page_css(), page.link, scenes::markup_text(page.sentence));
+        fmt::format(head, scenes::markup_text(page.title), page_css(), page.link, scenes::markup_text(page.lead));
     for (const Section& section : page.sections) {
         text += fmt::format("<h2>{}</h2>\n<p>{}</p>\n", scenes::markup_text(section.title),
                             scenes::markup_text(section.text));

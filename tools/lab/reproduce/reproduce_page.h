@@ -31,7 +31,7 @@ struct Section {
 };
 
 // The sentence on every page.
-inline constexpr const char* page_sentence =
+inline constexpr const char* page_note =
     "The paper's figures and tables by its algorithms on the devices that it was written for, next to the paper's own "
     "numbers where it has any, and why "
     "ours differ where they do.";
@@ -39,7 +39,7 @@ inline constexpr const char* page_sentence =
 // The page of one paper: its sections from top to bottom.
 struct Page {
     std::string title;
-    std::string sentence;   // the content of the page
+    std::string lead;       // the content of the page
     std::string_view link;  // a link to the paper
     std::vector<Section> sections{};
 };

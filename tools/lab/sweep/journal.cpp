@@ -81,8 +81,8 @@ std::string line_text(const ordered_json& line) {
     return text + ending_of(text) + '\n';
 }
 
-Found read_journal(const std::string& path) {
-    Found found;
+JournalContents read_journal(const std::string& path) {
+    JournalContents found;
     if (!std::filesystem::exists(path)) return found;
     // At most 2 GiB, far more than the lines of any sweep.
     const std::string text = scenes::read_text_file(path, std::size_t{1} << 31);
@@ -106,7 +106,7 @@ Found read_journal(const std::string& path) {
     return found;
 }
 
-Lines lines_of_cells(const std::string& path, Found& found, const Expected& expected) {
+Lines lines_of_cells(const std::string& path, JournalContents& found, const Expected& expected) {
     Lines lines(expected.cells.size());
     std::size_t last = 0;
     for (std::size_t i = 0; i < found.lines.size(); ++i) {
@@ -158,7 +158,7 @@ std::string text_of(const Lines& lines) {
     return text;
 }
 
-void warn_of(const std::string& path, const Found& found) {
+void warn_of(const std::string& path, const JournalContents& found) {
     constexpr std::size_t most_named = 8;
     const std::size_t named = std::min(found.changed.size(), most_named);
     for (std::size_t i = 0; i < named; ++i)
@@ -169,7 +169,7 @@ void warn_of(const std::string& path, const Found& found) {
     if (found.torn) say_warning(path + ": the last line was torn; its cell is measured again");
 }
 
-Journal journal_behind(const std::string& path, const Found& found, const Lines& whole) {
+Journal journal_behind(const std::string& path, const JournalContents& found, const Lines& whole) {
     if (found.changed.empty()) return {path, found.whole_bytes};
     const std::string text = text_of(whole);
     scenes::write_file(path, text);

@@ -24,7 +24,7 @@ using Lines = std::vector<nlohmann::ordered_json>;
 [[nodiscard]] std::string line_text(const nlohmann::ordered_json& line);
 
 // The contents of a journal when it is opened.
-struct Found {
+struct JournalContents {
     Lines lines;                         // the valid lines, without their digests
     std::vector<std::size_t> numbers{};  // the line number of each in the file, from 1
     std::vector<std::size_t> changed{};  // the numbers of lines that were changed
@@ -35,7 +35,7 @@ struct Found {
 };
 
 // Empty if the file does not exist.
-[[nodiscard]] Found read_journal(const std::string& path);
+[[nodiscard]] JournalContents read_journal(const std::string& path);
 
 // The expected lines of a journal: `cells` are the shard's, `described[i]` has all keys of cells[i] that are known
 // before it runs, `keys` are those of a complete line.
@@ -47,7 +47,7 @@ struct Expected {
 
 // The lines, at the indices of their cells; null where there is none. A second line of a cell, and a line with other
 // keys, is added to found.changed. Throws InputError for a line of another plan: a folder belongs to one plan.
-[[nodiscard]] Lines lines_of_cells(const std::string& path, Found& found, const Expected& expected);
+[[nodiscard]] Lines lines_of_cells(const std::string& path, JournalContents& found, const Expected& expected);
 
 // Appends to a file; each line is on disk when append() returns. Throws SystemError.
 class Journal {
@@ -69,8 +69,8 @@ class Journal {
 // The text of the lines that are not null, in order.
 [[nodiscard]] std::string text_of(const Lines& lines);
 // Warns of each ignored line.
-void warn_of(const std::string& path, const Found& found);
+void warn_of(const std::string& path, const JournalContents& found);
 // Opens a journal for appending after its valid lines. If it has ignored lines, it is rewritten without them first.
-[[nodiscard]] Journal journal_behind(const std::string& path, const Found& found, const Lines& whole);
+[[nodiscard]] Journal journal_behind(const std::string& path, const JournalContents& found, const Lines& whole);
 
 }  // namespace strata::tools

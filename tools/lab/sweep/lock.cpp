@@ -62,7 +62,7 @@ Lock::Lock(const std::string& journal) {
         if (is_file_of(descriptor_, path_)) break;
         ::close(descriptor_);
     }
-    place_ = scenes::enter_unfinished_file(path_);
+    slot_ = scenes::enter_unfinished_file(path_);
     const std::string text = this_run();
     // The text is informational: the lock is valid without it.
     if (::ftruncate(descriptor_, 0) != 0 || ::pwrite(descriptor_, text.data(), text.size(), 0) < 0) return;
@@ -71,9 +71,9 @@ Lock::Lock(const std::string& journal) {
 // The file is removed before the lock is released, so that no process locks a file that is about to lose its name
 // without detecting it.
 Lock::~Lock() {
-    if (place_ >= 0) {
+    if (slot_ >= 0) {
         ::unlink(path_.c_str());
-        scenes::forget_unfinished_file(place_);
+        scenes::forget_unfinished_file(slot_);
     }
     ::close(descriptor_);
 }

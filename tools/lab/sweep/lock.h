@@ -20,7 +20,7 @@ class Lock {
   private:
     std::string path_;
     int descriptor_ = -1;
-    int place_ = -1;  // slot in scenes/files/unfinished_files.h; -1: the file system has no locks
+    int slot_ = -1;  // slot in scenes/files/unfinished_files.h; -1: the file system has no locks
 };
 
 }  // namespace strata::tools

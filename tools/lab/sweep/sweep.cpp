@@ -85,7 +85,7 @@ void add_cells(PlainPage& page, const std::string& csv) {
 PlainPage page_of(const Work& work, const std::string& folder, const std::string& csv, const Lines& lines) {
     PlainPage page{"strata " + work.name, fmt::format("{} cells; the whole table is results.csv", work.cells)};
     const Findings found = work.findings(lines);
-    page.sentence(found.sentence);
+    page.lead(found.lead);
     if (!found.table.rows.empty()) page.table(found.table, found.name);
     page.items(found.items);
     const auto pictures = pictures_in(folder);
@@ -110,12 +110,12 @@ ordered_json as_read(const ordered_json& line) { return ordered_json::parse(json
 
 // Measures the cells of the shard whose line is null.
 void measure_missing(const Work& work, const std::string& folder, const Expected& expected, const Shard& shard,
-                     const Found& found, Lines& lines) {
+                     const JournalContents& found, Lines& lines) {
     const std::string results = shard_file(folder, "results", shard), timings = shard_file(folder, "timings", shard);
     const auto missing = std::count(lines.begin(), lines.end(), nullptr);
     bool in_order = found.in_order || !found.changed.empty();  // a changed journal is rewritten
     if (missing == 0 && found.changed.empty() && !found.torn && in_order) return;
-    const Found timed = read_journal(timings);
+    const JournalContents timed = read_journal(timings);
     Journal journal = journal_behind(results, found, lines), clock = journal_behind(timings, timed, timed.lines);
     Progress progress(work.name, Remaining::shown);
     std::ptrdiff_t done = 0;
@@ -125,17 +125,17 @@ void measure_missing(const Work& work, const std::string& folder, const Expected
             continue;
         }
         progress.show(static_cast<double>(done) / static_cast<double>(missing));
-        scenes::tell_when_interrupted(fmt::format("{} of {} cells stand in {}; the same command measures the rest",
+        scenes::set_interrupt_message(fmt::format("{} of {} cells stand in {}; the same command measures the rest",
                                                   lines.size() - static_cast<std::size_t>(missing - done), lines.size(),
                                                   results));
-        const Measured measured = work.measure(expected.cells[i]);
+        const MeasuredCell measured = work.measure(expected.cells[i]);
         // Images and times are written first: a line in the journal means that its cell is complete.
         clock.append(measured.timing);
         journal.append(measured.line);
         lines[i] = as_read(measured.line);
         ++done;
     }
-    scenes::tell_when_interrupted("");
+    scenes::set_interrupt_message("");
     // If cells in between were missing, their lines are at the end: the finished file is rewritten in order.
     if (!in_order) scenes::write_file(results, text_of(lines));
 }
@@ -161,7 +161,7 @@ int run_sweep(const Work& work, const std::string& folder, const Shard& shard) {
     const Lock lock(results);
     remove_leftovers(folder, shard);
     const Expected expected = expected_of(work, shard);
-    Found found = read_journal(results);
+    JournalContents found = read_journal(results);
     Lines lines = lines_of_cells(results, found, expected);
     warn_of(results, found);
     measure_missing(work, folder, expected, shard, found, lines);
@@ -185,7 +185,7 @@ int merge_shards(const Work& work, const std::string& folder, std::size_t shards
         const Shard shard{index, shards};
         const std::string path = shard_file(folder, "results", shard);
         const Expected expected = expected_of(work, shard);
-        Found found = read_journal(path);
+        JournalContents found = read_journal(path);
         Lines lines = lines_of_cells(path, found, expected);
         warn_of(path, found);
         const auto missing = static_cast<std::size_t>(std::count(lines.begin(), lines.end(), nullptr));
@@ -206,7 +206,7 @@ void dry_run(const Work& work, const Shard& shard) {
     double total = 0;
     const auto mine = shard.cells(work.cells);
     for (const std::size_t cell : mine) {
-        const std::string like = work.alike(cell);
+        const std::string like = work.timing_class(cell);
         if (!measured.contains(like)) measured[like] = work.measure(cell).seconds;
         total += measured[like];
         print(json_text(work.description(cell)) + '\n');

@@ -13,7 +13,7 @@
 namespace strata::tools {
 
 // One measured cell. `line` begins with the cell's description; `timing` is its line of timings.jsonl.
-struct Measured {
+struct MeasuredCell {
     nlohmann::ordered_json line, timing;
     double seconds = 0;
 };
@@ -21,7 +21,7 @@ struct Measured {
 // The text of a page about all lines, above the images and the table of the cells: a sentence, a table with its title,
 // further sentences.
 struct Findings {
-    std::string sentence;
+    std::string lead;
     Table table{};
     std::string name{};
     std::vector<std::string> items{};
@@ -38,11 +38,11 @@ struct Work {
     // The keys of a complete line.
     std::vector<std::string> keys;
     // Runs a cell, and writes its images if it has any.
-    std::function<Measured(std::size_t cell)> measure;
+    std::function<MeasuredCell(std::size_t cell)> measure;
     // The complete results.csv, and the summary printed at the end, from all lines in the order of the cells.
     std::function<std::string(const Lines&)> csv, summary;
     // Cells with the same text are assumed to take equally long.
-    std::function<std::string(std::size_t cell)> alike;
+    std::function<std::string(std::size_t cell)> timing_class;
     // --report: the file of a page with the findings, the table and the images of the folder; empty: none.
     std::string report{};
     std::function<Findings(const Lines&)> findings{};
@@ -56,8 +56,8 @@ struct Work {
 // Merges the files of `shards` shards: results.jsonl, results.csv, timings.jsonl. InputError if one is incomplete.
 [[nodiscard]] int merge_shards(const Work& work, const std::string& folder, std::size_t shards);
 
-// Prints the shard's cells, one per line, and an estimate of their time: the first cell of each text of `alike` is
-// measured now.
+// Prints the shard's cells, one per line, and an estimate of their time: the first cell of each text of `timing_class`
+// is measured now.
 void dry_run(const Work& work, const Shard& shard);
 
 }  // namespace strata::tools

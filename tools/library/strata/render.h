@@ -68,8 +68,8 @@ struct Layer {
                                                       const DeviceProfile& profile, const RenderOptions& options = {});
 
 // Every pass with the contents of all targets after it; the last entry is the picture.
-[[nodiscard]] std::vector<oracle::PassShown> passes(const Scene& scene, const Algorithm& algorithm,
-                                                    const DeviceProfile& profile, const RenderOptions& options = {});
+[[nodiscard]] std::vector<oracle::PassReport> passes(const Scene& scene, const Algorithm& algorithm,
+                                                     const DeviceProfile& profile, const RenderOptions& options = {});
 
 // The history of pixel x, y, from the top left; oracle::to_text, to_json and to_svg format it.
 [[nodiscard]] oracle::History explain(const Scene& scene, int x, int y, const Algorithm& algorithm,

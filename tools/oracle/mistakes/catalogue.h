@@ -17,12 +17,12 @@
 namespace strata::oracle {
 
 // What a mistake changes.
-enum class Place : std::uint8_t { scene, machine, steps, programs, picture };
+enum class ChangedPart : std::uint8_t { scene, machine, steps, programs, picture };
 
 struct Mistake {
-    std::string name{};      // "one_pass_too_few"
-    std::string sentence{};  // the text that follows "the pixels are those of: "
-    Place place{};
+    std::string name{};         // "one_pass_too_few"
+    std::string description{};  // the text that follows "the pixels are those of: "
+    ChangedPart part{};
     // Returns false if the experiment has nothing that the mistake could change.
     std::function<bool(Experiment& experiment)> make{};
     bool is_allowed = false;  // a correct port may do this: an option of machine_options.h

@@ -87,7 +87,7 @@ constexpr std::size_t most_pixels_of_pairs = std::size_t{1} << 21;
 
 }  // namespace
 
-struct Lineup::Evidence {
+struct MistakeImages::Evidence {
     const Picture& candidate;
     const Tolerances& tolerances;
     const Agreement& right_agrees;
@@ -99,17 +99,18 @@ struct Lineup::Evidence {
     }
 };
 
-Lineup::Lineup(const Laboratory& laboratory, const ShowProgress& progress, std::span<const Mistake> options)
-    : laboratory_{laboratory} {
+MistakeImages::MistakeImages(const MistakeRenderer& mistake_renderer, const ShowProgress& progress,
+                             std::span<const Mistake> options)
+    : mistake_renderer_{mistake_renderer} {
     for (const Mistake& option : options) suspects_.push_back({.mistake = &option});
     for (const Mistake& mistake : catalogue()) suspects_.push_back({.mistake = &mistake});
     for_all(suspects_.size(), progress,
-            [&](std::size_t i) { suspects_[i].picture = laboratory.with(*suspects_[i].mistake); });
+            [&](std::size_t i) { suspects_[i].picture = mistake_renderer.with(*suspects_[i].mistake); });
     for (std::size_t i = 0; i < suspects_.size(); ++i) {
         Suspect& suspect = suspects_[i];
         suspect.like = i;
-        suspect.shows = suspect.picture && !is_same(*suspect.picture, laboratory.right());
-        if (suspect.shows) suspect.unchanged = agreement(laboratory.right(), *suspect.picture, {});
+        suspect.shows = suspect.picture && !is_same(*suspect.picture, mistake_renderer.right());
+        if (suspect.shows) suspect.unchanged = agreement(mistake_renderer.right(), *suspect.picture, {});
         for (std::size_t j = 0; suspect.shows && j < i; ++j)
             if (suspects_[j].shows && suspects_[j].like == j && is_same(*suspects_[j].picture, *suspect.picture)) {
                 suspect.like = j;
@@ -118,35 +119,38 @@ Lineup::Lineup(const Laboratory& laboratory, const ShowProgress& progress, std::
     }
 }
 
-const Picture* Lineup::picture_of(const Mistake& mistake) const {
+const Picture* MistakeImages::picture_of(const Mistake& mistake) const {
     const auto found = std::ranges::find(suspects_, &mistake, &Suspect::mistake);
     return found->picture ? &*found->picture : nullptr;
 }
 
-Lineup::Judged Lineup::judge(std::span<const Mistake* const> mistakes, const Picture& candidate,
-                             const Tolerances& tolerances, const std::vector<PassPicture>* passes) const {
+MistakeImages::Judgement MistakeImages::judge(std::span<const Mistake* const> mistakes, const Picture& candidate,
+                                              const Tolerances& tolerances,
+                                              const std::vector<PassPicture>* passes) const {
     std::vector<const Mistake*> made;
     for (const Mistake* mistake : mistakes)
         if (picture_of(*mistake) != nullptr) made.push_back(mistake);
-    const std::optional<Picture> both = made.size() > 1 ? laboratory_.with(made) : std::nullopt;
-    const Picture* picture = made.empty() ? &laboratory_.right() : made.size() == 1 ? picture_of(*made[0]) : nullptr;
+    const std::optional<Picture> both = made.size() > 1 ? mistake_renderer_.with(made) : std::nullopt;
+    const Picture* picture = made.empty()       ? &mistake_renderer_.right()
+                             : made.size() == 1 ? picture_of(*made[0])
+                                                : nullptr;
     if (both) picture = &*both;
     if (picture == nullptr) return {};
-    const Agreement right_agrees = agreement(laboratory_.right(), candidate, tolerances);
+    const Agreement right_agrees = agreement(mistake_renderer_.right(), candidate, tolerances);
     const Evidence evidence{candidate, tolerances, right_agrees, {}};
-    const Finding right = evidence.of({}, laboratory_.right());
-    Judged judged{.finding = evidence.of(made, *picture)};
+    const Finding right = evidence.of({}, mistake_renderer_.right());
+    Judgement judged{.finding = evidence.of(made, *picture)};
     const std::uint64_t pixels = right_agrees.size();
     judged.fits = judged.finding.agreeing == pixels || (right.nearly != pixels && judged.finding.nearly == pixels);
     if (passes == nullptr || !judged.fits) return judged;
-    const auto right_passes = laboratory_.compare_passes({}, *passes);
+    const auto right_passes = mistake_renderer_.compare_passes({}, *passes);
     if (!right_passes || right_passes->targets == 0) return judged;
-    judged.finding.passes = laboratory_.compare_passes(made, *passes);
+    judged.finding.passes = mistake_renderer_.compare_passes(made, *passes);
     judged.fits = judged.finding.passes && explains_origin(*judged.finding.passes, *right_passes);
     return judged;
 }
 
-bool Lineup::shows(const Mistake& mistake) const {
+bool MistakeImages::shows(const Mistake& mistake) const {
     return std::ranges::find(suspects_, &mistake, &Suspect::mistake)->shows;
 }
 
@@ -180,14 +184,14 @@ Verdict verdict_of(const Diagnosis& d) {
 
 }  // namespace
 
-Diagnosis Lineup::diagnose(const Picture& candidate, const Tolerances& tolerances, const ShowProgress& progress,
-                           const std::vector<PassPicture>* passes) const {
+Diagnosis MistakeImages::diagnose(const Picture& candidate, const Tolerances& tolerances, const ShowProgress& progress,
+                                  const std::vector<PassPicture>* passes) const {
     Diagnosis result{.is_blank = is_blank(candidate)};
-    const Agreement right_agrees = agreement(laboratory_.right(), candidate, tolerances);
+    const Agreement right_agrees = agreement(mistake_renderer_.right(), candidate, tolerances);
     result.pixels = right_agrees.size();
     result.differing = static_cast<std::uint64_t>(std::ranges::count(right_agrees, false));
     Evidence evidence{candidate, tolerances, right_agrees, std::vector<Agreement>(suspects_.size())};
-    result.findings.push_back(evidence.of({}, laboratory_.right()));
+    result.findings.push_back(evidence.of({}, mistake_renderer_.right()));
     const std::uint64_t right_nearly = result.findings.front().nearly;
     for (std::size_t i = 0; i < suspects_.size(); ++i) {
         const Suspect& suspect = suspects_[i];
@@ -226,13 +230,13 @@ constexpr std::size_t most_weighed = 64;  // limit on findings whose passes are 
 
 }  // namespace
 
-void Lineup::weigh_nearly_whole(const std::vector<PassPicture>& passes, Diagnosis& d) const {
+void MistakeImages::weigh_nearly_whole(const std::vector<PassPicture>& passes, Diagnosis& d) const {
     if (!d.right_passes || d.right_passes->targets == 0) return;
     std::size_t weighed = 0;
     for (auto f = d.findings.begin(); f != d.findings.end() && weighed < most_weighed; ++f) {
         if (!is_nearly_whole(*f, d)) continue;
         ++weighed;
-        f->passes = laboratory_.compare_passes(f->mistakes, passes);
+        f->passes = mistake_renderer_.compare_passes(f->mistakes, passes);
         if (!f->passes || !explains_origin(*f->passes, *d.right_passes)) continue;
         std::rotate(d.findings.begin(), f, f + 1);
         d.is_nearly = true;
@@ -244,8 +248,8 @@ void Lineup::weigh_nearly_whole(const std::vector<PassPicture>& passes, Diagnosi
     d.verdict = Verdict::unknown_mistake;
 }
 
-void Lineup::weigh_passes(const Evidence& evidence, const std::vector<PassPicture>& passes, Diagnosis& d) const {
-    d.right_passes = laboratory_.compare_passes({}, passes);
+void MistakeImages::weigh_passes(const Evidence& evidence, const std::vector<PassPicture>& passes, Diagnosis& d) const {
+    d.right_passes = mistake_renderer_.compare_passes({}, passes);
     if (!d.right_passes || d.right_passes->targets == 0 || d.verdict == Verdict::unknown_mistake || d.is_nearly) return;
     if (d.verdict == Verdict::right && d.right_passes->is_whole()) return;
     // Each single mistake with the candidate's image; for the correct image, mistakes that do not change it.
@@ -276,7 +280,7 @@ void Lineup::weigh_passes(const Evidence& evidence, const std::vector<PassPictur
             for (const Mistake* first : with_alike(f.mistakes[0]))
                 for (const Mistake* second : with_alike(f.mistakes[1])) {
                     const std::vector<const Mistake*> both{first, second};
-                    const auto picture = both == f.mistakes ? std::nullopt : laboratory_.with(both);
+                    const auto picture = both == f.mistakes ? std::nullopt : mistake_renderer_.with(both);
                     if (!picture) continue;
                     if (Finding found = evidence.of(both, *picture); found.agreeing == d.pixels)
                         weighed.push_back(std::move(found));
@@ -289,7 +293,7 @@ void Lineup::weigh_passes(const Evidence& evidence, const std::vector<PassPictur
                 weighed.back().mistakes = {suspect.mistake};
             }
     for_all(weighed.size(), {},
-            [&](std::size_t i) { weighed[i].passes = laboratory_.compare_passes(weighed[i].mistakes, passes); });
+            [&](std::size_t i) { weighed[i].passes = mistake_renderer_.compare_passes(weighed[i].mistakes, passes); });
     const auto rank = [&](const Finding& f) {
         return f.passes ? std::pair{explains_origin(*f.passes, *d.right_passes), f.passes->alike} : std::pair{false, 0};
     };
@@ -318,8 +322,8 @@ struct TwoSuspects {
 }  // namespace
 
 // True if the second mistake undoes the first almost everywhere: no port has such a pair.
-bool Lineup::cancels(std::size_t first, std::size_t second, const Picture& both) const {
-    const Agreement is_right = agreement(laboratory_.right(), both, {});
+bool MistakeImages::cancels(std::size_t first, std::size_t second, const Picture& both) const {
+    const Agreement is_right = agreement(mistake_renderer_.right(), both, {});
     std::size_t shown = 0, undone = 0;
     for (std::size_t i = 0; i < is_right.size(); ++i) {
         if (suspects_[first].unchanged[i] || suspects_[second].unchanged[i]) continue;
@@ -329,7 +333,7 @@ bool Lineup::cancels(std::size_t first, std::size_t second, const Picture& both)
     return shown > 0 && 2 * undone > shown;
 }
 
-void Lineup::try_pairs(const Evidence& evidence, const ShowProgress& progress, Diagnosis& result) const {
+void MistakeImages::try_pairs(const Evidence& evidence, const ShowProgress& progress, Diagnosis& result) const {
     if (result.pixels > most_pixels_of_pairs) return;
     std::vector<TwoSuspects> pairs, finished;
     for (std::size_t a = 0; a < suspects_.size(); ++a)
@@ -343,7 +347,7 @@ void Lineup::try_pairs(const Evidence& evidence, const ShowProgress& progress, D
                 const Agreement& as = a_alone && b_alone ? evidence.right_agrees : evidence.agrees[a_alone ? a : b];
                 pair.against += as[i] ? 0 : 1;
             }
-            (suspects_[b].mistake->place == Place::picture ? finished : pairs).push_back(pair);
+            (suspects_[b].mistake->part == ChangedPart::picture ? finished : pairs).push_back(pair);
         }
     std::ranges::stable_sort(pairs, [](const TwoSuspects& x, const TwoSuspects& y) {
         return std::pair{x.against, y.known} < std::pair{y.against, x.known};
@@ -355,9 +359,9 @@ void Lineup::try_pairs(const Evidence& evidence, const ShowProgress& progress, D
     std::vector<std::optional<Finding>> found(pairs.size());
     for_all(pairs.size(), progress, [&](std::size_t i) {
         const Mistake* const both[] = {suspects_[pairs[i].first].mistake, suspects_[pairs[i].second].mistake};
-        const bool is_finished = both[1]->place == Place::picture;
-        const auto picture =
-            is_finished ? std::optional{changed(*suspects_[pairs[i].first].picture, *both[1])} : laboratory_.with(both);
+        const bool is_finished = both[1]->part == ChangedPart::picture;
+        const auto picture = is_finished ? std::optional{changed(*suspects_[pairs[i].first].picture, *both[1])}
+                                         : mistake_renderer_.with(both);
         if (picture && !cancels(pairs[i].first, pairs[i].second, *picture))
             found[i] = evidence.of({both[0], both[1]}, *picture);
     });

@@ -17,7 +17,7 @@
 #include <span>
 
 #include "tools/oracle/compare.h"
-#include "tools/oracle/mistakes/laboratory.h"
+#include "tools/oracle/mistakes/mistake_renderer.h"
 
 namespace strata::oracle {
 
@@ -53,18 +53,19 @@ struct Diagnosis {
     std::vector<Finding> findings{};              // the best first; never empty
     std::string structure{};  // what the layers show if no image equals the candidate's; empty: not examined
     std::string structure_json{};
-    const SuiteScene* telling = nullptr;  // a scene that distinguishes the first finding from those alike, or the leads
+    const SuiteScene* distinguishing_scene =
+        nullptr;  // a scene that distinguishes the first finding from those alike, or the leads
     int tried = 0, hidden = 0, impossible = 0, pairs_tried = 0;
 };
 
 using ShowProgress = std::function<void(double share)>;
 
 // The images of all mistakes, rendered once for any number of candidates.
-class Lineup {
+class MistakeImages {
   public:
-    // `laboratory` and `options` must outlive this.
-    explicit Lineup(const Laboratory& laboratory, const ShowProgress& progress = {},
-                    std::span<const Mistake> options = {});
+    // `mistake_renderer` and `options` must outlive this.
+    explicit MistakeImages(const MistakeRenderer& mistake_renderer, const ShowProgress& progress = {},
+                           std::span<const Mistake> options = {});
 
     // `passes` are the candidate's, or null.
     [[nodiscard]] Diagnosis diagnose(const Picture& candidate, const Tolerances& tolerances = {},
@@ -73,12 +74,12 @@ class Lineup {
 
     // Judges the run with those of `mistakes` that are applicable to this scene. It fits if the candidate's image
     // equals its image, or is within one code of it where the correct image is not, and its passes do not contradict.
-    struct Judged {
+    struct Judgement {
         Finding finding{};
         bool fits = false;
     };
-    [[nodiscard]] Judged judge(std::span<const Mistake* const> mistakes, const Picture& candidate,
-                               const Tolerances& tolerances, const std::vector<PassPicture>* passes) const;
+    [[nodiscard]] Judgement judge(std::span<const Mistake* const> mistakes, const Picture& candidate,
+                                  const Tolerances& tolerances, const std::vector<PassPicture>* passes) const;
 
     // Null if the mistake is not applicable to this scene.
     [[nodiscard]] const Picture* picture_of(const Mistake& mistake) const;
@@ -98,7 +99,7 @@ class Lineup {
     void weigh_nearly_whole(const std::vector<PassPicture>& passes, Diagnosis& diagnosis) const;
     void weigh_passes(const Evidence& evidence, const std::vector<PassPicture>& passes, Diagnosis& diagnosis) const;
 
-    const Laboratory& laboratory_;
+    const MistakeRenderer& mistake_renderer_;
     std::vector<Suspect> suspects_;
 };
 

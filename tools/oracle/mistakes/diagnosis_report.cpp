@@ -29,7 +29,7 @@ std::string first_line(const Diagnosis& d) {
     if (d.passes_contradict)
         return fmt::format(
             "none that is known: the picture is that of: {}; but no known machine that leaves it has these passes\n",
-            sentence_of(best.mistakes));
+            description_of(best.mistakes));
     if (d.verdict == Verdict::unknown_mistake && d.is_blank)
         return "none that is known: the picture has one colour everywhere: nothing was drawn, or the picture was never "
                "written, and it does not show why\n";
@@ -40,14 +40,14 @@ std::string first_line(const Diagnosis& d) {
             d.differing, d.pixels);
     if (d.verdict == Verdict::other_options)
         return fmt::format("right under other options: every pixel is{} that of: {}\n",
-                           d.is_nearly ? ", within one code," : "", sentence_of(best.mistakes));
+                           d.is_nearly ? ", within one code," : "", description_of(best.mistakes));
     return fmt::format("100 % of the pixels are{} those of: {}\n", d.is_nearly ? ", within one code," : "",
-                       sentence_of(best.mistakes));
+                       description_of(best.mistakes));
 }
 
 std::string line_of(const Finding& f, const Diagnosis& d) {
-    std::string text =
-        fmt::format("  {} % of the pixels are those of: {}\n", percent(f.agreeing, d.pixels), sentence_of(f.mistakes));
+    std::string text = fmt::format("  {} % of the pixels are those of: {}\n", percent(f.agreeing, d.pixels),
+                                   description_of(f.mistakes));
     if (!f.mistakes.empty() && d.differing > 0)
         text += fmt::format("      {} of the {} that differ; {} that do not differ speak against it\n", f.explained,
                             d.differing, f.contradicted);
@@ -78,11 +78,11 @@ ordered_json names_of(const std::vector<const Mistake*>& mistakes) {
 
 }  // namespace
 
-std::string sentence_of(const std::vector<const Mistake*>& mistakes) {
+std::string description_of(const std::vector<const Mistake*>& mistakes) {
     if (mistakes.empty()) return "a correct implementation";
     std::string text;
     for (const Mistake* mistake : mistakes)
-        text += fmt::format("{}{} ({})", text.empty() ? "" : "; and: ", mistake->sentence, mistake->name);
+        text += fmt::format("{}{} ({})", text.empty() ? "" : "; and: ", mistake->description, mistake->name);
     return text;
 }
 
@@ -106,11 +106,11 @@ std::string to_text(const Diagnosis& d, const Comparison& comparison) {
     if (d.is_nearly) text += fmt::format("  to the last code: {} of the {} that differ\n", best.explained, d.differing);
     for (const Mistake* mistake : best.alike)
         text += fmt::format("  the same picture of this scene{}: {} ({})\n", best.passes ? ", and passes alike" : "",
-                            mistake->sentence, mistake->name);
+                            mistake->description, mistake->name);
     const bool is_none = d.verdict == Verdict::unknown_mistake || d.verdict == Verdict::right_structure;
-    if (d.telling != nullptr)
-        text += fmt::format("  the suite's scene {} tells {} apart: {}\n", d.telling->name,
-                            is_none ? "the best of them" : "them", command_of(*d.telling));
+    if (d.distinguishing_scene != nullptr)
+        text += fmt::format("  the suite's scene {} tells {} apart: {}\n", d.distinguishing_scene->name,
+                            is_none ? "the best of them" : "them", command_of(*d.distinguishing_scene));
     if (d.findings.size() > 1 && d.verdict != Verdict::right) text += is_none ? "the best:\n" : "the next best:\n";
     for (std::size_t i = is_none ? 0 : 1; i < std::min(d.findings.size(), most_findings); ++i)
         if (d.verdict != Verdict::right) text += line_of(d.findings[i], d);
@@ -137,12 +137,12 @@ std::string to_json(const Diagnosis& d, const Comparison& comparison) {
                           {"distinguishing_scene", nullptr},
                           {"findings", ordered_json::array()}};
     if (!d.structure_json.empty()) document["structure"] = ordered_json::parse(d.structure_json);
-    if (d.telling != nullptr) document["distinguishing_scene"] = d.telling->name;
+    if (d.distinguishing_scene != nullptr) document["distinguishing_scene"] = d.distinguishing_scene->name;
     for (const Finding& f : d.findings) {
-        ordered_json sentences = ordered_json::array();
-        for (const Mistake* mistake : f.mistakes) sentences.push_back(mistake->sentence);
+        ordered_json descriptions = ordered_json::array();
+        for (const Mistake* mistake : f.mistakes) descriptions.push_back(mistake->description);
         document["findings"].push_back({{"mistakes", names_of(f.mistakes)},
-                                        {"sentences", std::move(sentences)},
+                                        {"sentences", std::move(descriptions)},
                                         {"agreeing", f.agreeing},
                                         {"explained", f.explained},
                                         {"contradicted", f.contradicted},

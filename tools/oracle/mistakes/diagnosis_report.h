@@ -9,7 +9,7 @@ namespace strata::oracle {
 [[nodiscard]] std::string_view name(Verdict verdict) noexcept;
 
 // "colours multiplied by their alpha twice (premultiplied_twice); and: ..."; "the right machine" if empty.
-[[nodiscard]] std::string sentence_of(const std::vector<const Mistake*>& mistakes);
+[[nodiscard]] std::string description_of(const std::vector<const Mistake*>& mistakes);
 
 // `comparison`: of the correct image and the candidate. The first line is the verdict; the next best findings follow,
 // and, if the correct run did not make the image, the report of compare.

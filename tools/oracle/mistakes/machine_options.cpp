@@ -21,8 +21,8 @@ Format accumulators(const Experiment& e) {
     return e.options.color_format.value_or(is_exact ? Format::rgba32f : Format::rgba8);
 }
 
-Mistake allowed(std::string name, std::string sentence, std::function<bool(Experiment&)> make) {
-    return {std::move(name), std::move(sentence), Place::machine, std::move(make), true};
+Mistake allowed(std::string name, std::string description, std::function<bool(Experiment&)> make) {
+    return {std::move(name), std::move(description), ChangedPart::machine, std::move(make), true};
 }
 
 std::string_view words_for(BlendRounding rule) {
@@ -119,7 +119,7 @@ void add_limits(std::vector<Mistake>& all, const peeling::Algorithm& algorithm, 
         all.push_back({fmt::format("passes_{}", passes),
                        fmt::format("only the {}{} of {} (--max-passes {})", by_one ? "nearest" : "first",
                                    counted(passes, by_one ? "layer" : "pass"), right.enough_passes, passes),
-                       Place::machine, [passes](Experiment& e) {
+                       ChangedPart::machine, [passes](Experiment& e) {
                            if (e.options.max_passes > 0 && e.options.max_passes <= passes) return false;
                            e.options.max_passes = passes;
                            return true;
@@ -133,15 +133,15 @@ void add_epsilons(std::vector<Mistake>& all) {
     for (const int ulps : {1, 2, 4, 16, 64})
         all.push_back({fmt::format("epsilon_{}_codes", ulps),
                        fmt::format("an epsilon of {} codes of depth added before peeled depths are compared", ulps),
-                       Place::machine, [ulps](Experiment& e) {
+                       ChangedPart::machine, [ulps](Experiment& e) {
                            if (!takes_epsilon(e)) return false;
                            e.options.compare_epsilon.ulps += ulps;
                            return true;
                        }});
     for (const int bits : {24, 20, 14, 10})
         all.push_back({fmt::format("epsilon_2_{}", bits),
-                       fmt::format("an epsilon of 2^-{} added before peeled depths are compared", bits), Place::machine,
-                       [bits](Experiment& e) {
+                       fmt::format("an epsilon of 2^-{} added before peeled depths are compared", bits),
+                       ChangedPart::machine, [bits](Experiment& e) {
                            if (!takes_epsilon(e)) return false;
                            e.options.compare_epsilon.absolute += 1.0 / (1 << bits);
                            return true;
@@ -150,15 +150,16 @@ void add_epsilons(std::vector<Mistake>& all) {
 
 void add_background(std::vector<Mistake>& all) {
     all.push_back(
-        {"background_none", "a transparent background (--background none)", Place::machine, [](Experiment& e) {
+        {"background_none", "a transparent background (--background none)", ChangedPart::machine, [](Experiment& e) {
              e.options.background = {0, 0, 0, 0};
              return true;
          }});
-    all.push_back({"background_alpha_0", "the background's colour with alpha 0", Place::machine, [](Experiment& e) {
-                       auto& background = e.options.background;
-                       background[3] = 0;
-                       return background != pipeline::Rgba{0, 0, 0, 0};
-                   }});
+    all.push_back(
+        {"background_alpha_0", "the background's colour with alpha 0", ChangedPart::machine, [](Experiment& e) {
+             auto& background = e.options.background;
+             background[3] = 0;
+             return background != pipeline::Rgba{0, 0, 0, 0};
+         }});
 }
 
 }  // namespace

@@ -10,11 +10,11 @@ namespace strata::oracle {
 
 namespace {
 
-Cell cell_of(const Lineup& lineup, const Mistake& mistake) {
-    const Picture* const picture = lineup.picture_of(mistake);
+Cell cell_of(const MistakeImages& mistake_images, const Mistake& mistake) {
+    const Picture* const picture = mistake_images.picture_of(mistake);
     if (picture == nullptr) return Cell::impossible;
-    const Diagnosis diagnosis = lineup.diagnose(*picture);
-    if (!lineup.shows(mistake)) return diagnosis.verdict == Verdict::right ? Cell::hidden : Cell::accused;
+    const Diagnosis diagnosis = mistake_images.diagnose(*picture);
+    if (!mistake_images.shows(mistake)) return diagnosis.verdict == Verdict::right ? Cell::hidden : Cell::accused;
     const Finding& first = diagnosis.findings.front();
     if (diagnosis.verdict != Verdict::one_mistake) return Cell::wrong;
     if (first.mistakes.front() == &mistake) return Cell::named;
@@ -62,15 +62,15 @@ bool is_declared_look_alike(const Mistake& mistake) {
 
 TableColumn table_column(const SuiteScene& scene) {
     const OpenScene opened = open(scene);
-    const Laboratory laboratory{opened.input(), *opened.algorithm};
-    const Lineup lineup{laboratory};
+    const MistakeRenderer mistake_renderer{opened.input(), *opened.algorithm};
+    const MistakeImages mistake_images{mistake_renderer};
     TableColumn column{&scene, {}, {}};
     std::vector<const Picture*> different;
     for (const Mistake& mistake : catalogue()) {
-        column.cells.push_back(cell_of(lineup, mistake));
+        column.cells.push_back(cell_of(mistake_images, mistake));
         std::size_t number = 0;
-        if (lineup.shows(mistake)) {
-            const Picture* const picture = lineup.picture_of(mistake);
+        if (mistake_images.shows(mistake)) {
+            const Picture* const picture = mistake_images.picture_of(mistake);
             const auto same = [&](const Picture* p) { return p->targets[0].codes == picture->targets[0].codes; };
             number = 1 + static_cast<std::size_t>(std::ranges::find_if(different, same) - different.begin());
             if (number > different.size()) different.push_back(picture);
@@ -190,7 +190,7 @@ std::string to_page(const std::vector<TableColumn>& columns, const std::string& 
                 fmt::format("\n{} and {} leave the same pictures. {}\n", pair.first->name, pair.second->name, reason);
     page += "\n| mistake | a picture has this mistake if its pixels are those of | named first in |\n|---|---|---|\n";
     for (std::size_t m = 0; m < all.size(); ++m)
-        page += fmt::format("| {} | {} | {} |\n", all[m].name, all[m].sentence, first_scene(columns, m));
+        page += fmt::format("| {} | {} | {} |\n", all[m].name, all[m].description, first_scene(columns, m));
     return page;
 }
 

@@ -91,10 +91,10 @@ bool sums_in_bytes(Experiment& e) {
             for (std::size_t i = 0; i < lanes_of_call(call); ++i) channel[i] = in_bytes(channel[i]);
     });
     return behind_pass_of(e, pipeline::PassKind::full_screen, "result", [](const ProgramCall& call) {
-        ColorLanes sums = call.own.color(0);
+        ColorLanes sums = call.loads.color(0);
         for (auto& channel : sums)
             for (std::size_t i = 0; i < lanes_of_call(call); ++i) channel[i] = in_bytes(channel[i]);
-        peeling::resolve_weighted(sums, sums[3], call.own.color(1)[0], call.own.color(2), call.out.color[0],
+        peeling::resolve_weighted(sums, sums[3], call.loads.color(1)[0], call.loads.color(2), call.out.color[0],
                                   lanes_of_call(call));
     });
 }
@@ -103,11 +103,11 @@ bool sums_in_bytes(Experiment& e) {
 // and the colour behind.
 bool resolves_by(Experiment& e, float (*formula)(float sum, float alpha, float through, float behind)) {
     return behind_pass_of(e, pipeline::PassKind::full_screen, "result", [formula](const ProgramCall& call) {
-        const ColorLanes &sums = call.own.color(0), &behind = call.own.color(2);
+        const ColorLanes &sums = call.loads.color(0), &behind = call.loads.color(2);
         for (std::size_t i = 0; i < lanes_of_call(call); ++i)
             if (sums[3][i] > 0)
                 for (std::size_t c = 0; c < 3; ++c)
-                    call.out.color[0][c][i] = formula(sums[c][i], sums[3][i], call.own.color(1)[0][i], behind[c][i]);
+                    call.out.color[0][c][i] = formula(sums[c][i], sums[3][i], call.loads.color(1)[0][i], behind[c][i]);
     });
 }
 
@@ -166,7 +166,7 @@ bool draws_core_again(Experiment& e) {
         run();
         const bool is_tail = names->is(call.state.color[0], "tail") || names->is(call.state.color[0], "tail_sums");
         for (std::size_t i = 0; call.kind == pipeline::PassKind::geometry && is_tail && i < lanes_of_call(call); ++i)
-            if (before[i] != 0 && call.in.code[i] < call.own.depth(0)[i]) call.out.alive[i] = ~0u;
+            if (before[i] != 0 && call.in.code[i] < call.loads.depth(0)[i]) call.out.alive[i] = ~0u;
     }});
     return true;
 }
@@ -193,19 +193,19 @@ bool hashes_pixels_alone(Experiment& e) {
 }
 
 const Mistake fixed_pass_mistakes[] = {
-    {"weight_grows_with_depth", "weights that grow with the distance: the wrong sign of z", Place::programs,
+    {"weight_grows_with_depth", "weights that grow with the distance: the wrong sign of z", ChangedPart::programs,
      [](Experiment& e) {
          return is_run_by(e, {"weighted_blended", "weighted_blended_shared"}) &&
                 with_depths(e, [](float depth) { return 1.0f - depth; });
      }},
-    {"weight_without_alpha", "the weight of a depth alone, without its factor alpha", Place::programs,
+    {"weight_without_alpha", "the weight of a depth alone, without its factor alpha", ChangedPart::programs,
      weighs_without_alpha},
-    {"revealage_cleared_to_0", "the product of (1 - alpha) cleared to 0 instead of 1", Place::steps,
+    {"revealage_cleared_to_0", "the product of (1 - alpha) cleared to 0 instead of 1", ChangedPart::steps,
      clears_revealage_to_0},
-    {"revealage_added", "the product of (1 - alpha) summed instead: one blend function for both targets", Place::steps,
-     adds_revealage},
-    {"sums_in_bytes", "sums of weighted colours in rgba8, where they stop at 1", Place::steps, sums_in_bytes},
-    {"background_added_whole", "the colour behind added without what the average lets through", Place::programs,
+    {"revealage_added", "the product of (1 - alpha) summed instead: one blend function for both targets",
+     ChangedPart::steps, adds_revealage},
+    {"sums_in_bytes", "sums of weighted colours in rgba8, where they stop at 1", ChangedPart::steps, sums_in_bytes},
+    {"background_added_whole", "the colour behind added without what the average lets through", ChangedPart::programs,
      [](Experiment& e) {
          return is_run_by(e, {"weighted_blended", "stochastic"}) &&
                 resolves_by(e, [](float sum, float alpha, float through, float behind) {
@@ -213,46 +213,46 @@ const Mistake fixed_pass_mistakes[] = {
                 });
      }},
     {"alpha_not_corrected", "sums composited as they are, not divided by their alpha and covering what all alphas say",
-     Place::programs,
+     ChangedPart::programs,
      [](Experiment& e) {
          return is_run_by(e, {"moments", "stochastic"}) &&
                 resolves_by(e, [](float sum, float alpha, float, float behind) {
                     return sum + behind * (1.0f - std::min(alpha, 1.0f));
                 });
      }},
-    {"moments_without_bias", "moments without a bias: roundings make their matrix indefinite", Place::programs,
+    {"moments_without_bias", "moments without a bias: roundings make their matrix indefinite", ChangedPart::programs,
      [](Experiment& e) {
          e.options.algorithm.moment_bias = 0.0f;
          return is_run_by(e, {"moments"});
      }},
-    {"moments_of_window_depth", "moments of depths from 0 to 1 instead of -1 to 1", Place::programs,
+    {"moments_of_window_depth", "moments of depths from 0 to 1 instead of -1 to 1", ChangedPart::programs,
      [](Experiment& e) {
          return is_run_by(e, {"moments"}) && with_depths(e, [](float depth) { return (depth + 1.0f) / 2.0f; });
      }},
     {"absorbance_by_log2", "the absorbance by the logarithm to base 2, what it lets through by the natural exponential",
-     Place::programs, takes_absorbance_by_log2},
-    {"list_cut_at_4", "of a pixel's fragments the first 4 submitted kept", Place::machine,
+     ChangedPart::programs, takes_absorbance_by_log2},
+    {"list_cut_at_4", "of a pixel's fragments the first 4 submitted kept", ChangedPart::machine,
      [](Experiment& e) { return cuts_lists(e, 4, peeling::Overflow::drop_new); }},
-    {"list_cut_at_8", "of a pixel's fragments the first 8 submitted kept", Place::machine,
+    {"list_cut_at_8", "of a pixel's fragments the first 8 submitted kept", ChangedPart::machine,
      [](Experiment& e) { return cuts_lists(e, 8, peeling::Overflow::drop_new); }},
-    {"list_of_8_nearest", "of a pixel's fragments the nearest 8 kept", Place::machine,
+    {"list_of_8_nearest", "of a pixel's fragments the nearest 8 kept", ChangedPart::machine,
      [](Experiment& e) { return cuts_lists(e, 8, peeling::Overflow::drop_far); }},
     {"list_loses_every_second", "every second fragment of a list lost: its head read and written without an atomic",
-     Place::steps, loses_every_second},
-    {"one_node_too_few", "one node a pixel too few", Place::machine, has_one_node_less},
-    {"tail_lost", "what has no node is not shown", Place::steps,
+     ChangedPart::steps, loses_every_second},
+    {"one_node_too_few", "one node a pixel too few", ChangedPart::machine, has_one_node_less},
+    {"tail_lost", "what has no node is not shown", ChangedPart::steps,
      [](Experiment& e) { return changes_tail(e, peeling::Tail::none); }},
-    {"tail_not_averaged", "what has no node blended in the order of submission instead of averaged", Place::steps,
+    {"tail_not_averaged", "what has no node blended in the order of submission instead of averaged", ChangedPart::steps,
      [](Experiment& e) { return is_run_by(e, {"hybrid_transparency"}) && changes_tail(e, peeling::Tail::blend); }},
-    {"core_again_in_tail", "the nearest fragments drawn into the tail too", Place::programs, draws_core_again},
-    {"tail_blended_twice", "what has no node blended twice", Place::programs, blends_tail_twice},
-    {"one_mask_for_all", "all fragments of a pixel cover the same samples: a hash of the pixel alone", Place::programs,
-     hashes_pixels_alone},
-    {"buckets_of_whole_range", "buckets of the whole range of depths instead of the pixel's own", Place::steps,
+    {"core_again_in_tail", "the nearest fragments drawn into the tail too", ChangedPart::programs, draws_core_again},
+    {"tail_blended_twice", "what has no node blended twice", ChangedPart::programs, blends_tail_twice},
+    {"one_mask_for_all", "all fragments of a pixel cover the same samples: a hash of the pixel alone",
+     ChangedPart::programs, hashes_pixels_alone},
+    {"buckets_of_whole_range", "buckets of the whole range of depths instead of the pixel's own", ChangedPart::steps,
      [](Experiment& e) {
          return is_run_by(e, {"bucket_peel"}) && with_clear(e, "bounds", {0, 1, 0, 0});
      }},
-    {"bounds_cleared_to_0", "the bounds of a pixel's depths cleared to (0, 0)", Place::steps,
+    {"bounds_cleared_to_0", "the bounds of a pixel's depths cleared to (0, 0)", ChangedPart::steps,
      [](Experiment& e) {
          return is_run_by(e, {"bucket_peel"}) && with_clear(e, "bounds", {0, 0, 0, 0});
      }},

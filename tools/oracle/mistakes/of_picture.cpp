@@ -60,35 +60,35 @@ bool with_colors(Experiment& e, Value value) {
 }
 
 const Mistake picture_mistakes[] = {
-    {"flipped_rows", "the right picture upside down: its rows stored from the bottom", Place::picture,
+    {"flipped_rows", "the right picture upside down: its rows stored from the bottom", ChangedPart::picture,
      [](Experiment& e) {
          return from_elsewhere(e, [](int x, int y, int, int height) { return std::pair{x, height - 1 - y}; });
      }},
-    {"flipped_columns", "the right picture as in a mirror", Place::picture,
+    {"flipped_columns", "the right picture as in a mirror", ChangedPart::picture,
      [](Experiment& e) {
          return from_elsewhere(e, [](int x, int y, int width, int) { return std::pair{width - 1 - x, y}; });
      }},
-    {"one_pixel_right", "the right picture moved right by one pixel", Place::picture,
+    {"one_pixel_right", "the right picture moved right by one pixel", ChangedPart::picture,
      [](Experiment& e) { return from_elsewhere(e, [](int x, int y, int, int) {
                              return std::pair{x - 1, y};
                          }); }},
-    {"one_pixel_down", "the right picture moved down by one pixel", Place::picture,
+    {"one_pixel_down", "the right picture moved down by one pixel", ChangedPart::picture,
      [](Experiment& e) { return from_elsewhere(e, [](int x, int y, int, int) {
                              return std::pair{x, y - 1};
                          }); }},
-    {"srgb_twice", "colours encoded to sRGB twice", Place::picture,
+    {"srgb_twice", "colours encoded to sRGB twice", ChangedPart::picture,
      [](Experiment& e) {
          return with_colors(e, [](double v) { return double{scenes::encode_srgb(static_cast<float>(v))}; });
      }},
-    {"srgb_decoded", "colours decoded from sRGB and not encoded again", Place::picture,
+    {"srgb_decoded", "colours decoded from sRGB and not encoded again", ChangedPart::picture,
      [](Experiment& e) {
          return with_colors(e, [](double v) { return double{scenes::decode_srgb(static_cast<float>(v))}; });
      }},
-    {"stored_in_8_bits", "float colours rounded to 8 bits on their way out", Place::picture,
+    {"stored_in_8_bits", "float colours rounded to 8 bits on their way out", ChangedPart::picture,
      [](Experiment& e) {
          return with_colors(e, [](double v) { return oracle::value(Code::unorm8, nearest(Code::unorm8, v)); });
      }},
-    {"red_for_blue", "red and blue exchanged", Place::picture,
+    {"red_for_blue", "red and blue exchanged", ChangedPart::picture,
      [](Experiment& e) {
          return afterwards(e, [](Picture& picture) {
              for (Target& t : picture.targets)
@@ -98,7 +98,7 @@ const Mistake picture_mistakes[] = {
                  }
          });
      }},
-    {"alpha_zero", "alpha 0 everywhere: the target was cleared to it and its alpha never written", Place::picture,
+    {"alpha_zero", "alpha 0 everywhere: the target was cleared to it and its alpha never written", ChangedPart::picture,
      [](Experiment& e) {
          return afterwards(e, [](Picture& picture) {
              for (Target& t : picture.targets)

@@ -43,7 +43,7 @@ bool is_min_max_peel(const Names& names, const PassState& state) {
 template <class Body>
 void for_near(const ProgramCall& call, Body body) {
     peeling::PeelLanes side;
-    peeling::scalar::classify(call.in.shader_z, call.own.color(0), call.own.depth(2), side, count_of(call));
+    peeling::scalar::classify(call.in.shader_z, call.loads.color(0), call.loads.depth(2), side, count_of(call));
     for (std::size_t i = 0; i < count_of(call); ++i)
         if (side.is_near[i] != 0) body(i);
 }
@@ -65,9 +65,9 @@ bool is_premultiplied(const Names& names, const PassState& state, std::size_t ta
 void leave_straight(const Names& names, const ProgramCall& call) {
     if (is_dual_peel(names, call.state)) {
         for_near(call, [&](std::size_t i) {
-            const float through = 1.0f - call.own.color(1)[3][i];
+            const float through = 1.0f - call.loads.color(1)[3][i];
             for (std::size_t c = 0; c < 3; ++c)
-                call.out.color[1][c][i] = call.own.color(1)[c][i] + through * call.in.color[c][i];
+                call.out.color[1][c][i] = call.loads.color(1)[c][i] + through * call.in.color[c][i];
         });
         return;
     }
@@ -84,7 +84,7 @@ void peel_again(const Names& names, const ProgramCall& call) {
     if (is_min_max_peel(names, call.state)) {
         const bool is_dual = is_dual_peel(names, call.state);
         peeling::PeelLanes side;
-        peeling::scalar::classify(call.in.shader_z, call.own.color(0), call.own.depth(is_dual ? 2 : 1), side,
+        peeling::scalar::classify(call.in.shader_z, call.loads.color(0), call.loads.depth(is_dual ? 2 : 1), side,
                                   count_of(call));
         for (std::size_t i = 0; i < count_of(call); ++i) {
             if ((side.is_near[i] | side.is_far[i]) == 0) continue;
@@ -96,7 +96,7 @@ void peel_again(const Names& names, const ProgramCall& call) {
     if (!call.state.depth.write || !call.state.reads[0].exists()) return;
     if (!names.is(call.state.reads[0], "nearest") && !names.is(call.state.reads[0], "layer")) return;
     for (std::size_t i = 0; i < count_of(call); ++i)
-        if (call.in.code[i] == call.own.depth(0)[i]) call.out.alive[i] = ~0u;
+        if (call.in.code[i] == call.loads.depth(0)[i]) call.out.alive[i] = ~0u;
 }
 
 // In dual peeling's program; in other algorithms UNDER is blend state (of_steps.cpp).
@@ -105,7 +105,7 @@ void forget_transmittance(const Names& names, const ProgramCall& call) {
     for_near(call, [&](std::size_t i) {
         const float alpha = call.in.color[3][i];
         for (std::size_t c = 0; c < 3; ++c)
-            call.out.color[1][c][i] = call.own.color(1)[c][i] + alpha * call.in.color[c][i];
+            call.out.color[1][c][i] = call.loads.color(1)[c][i] + alpha * call.in.color[c][i];
     });
 }
 
@@ -120,10 +120,10 @@ void premultiply_far_layer(const Names& names, const ProgramCall& call) {
 // t = 1 - average alpha, as for a single fragment.
 void average_without_power(const Names& names, const ProgramCall& call) {
     if (!names.is(call.state.reads[0], "sums") || !names.is(call.state.reads[1], "count")) return;
-    const ColorLanes& sum = call.own.color(0);
-    const ColorLanes& behind = call.own.color(2);
+    const ColorLanes& sum = call.loads.color(0);
+    const ColorLanes& behind = call.loads.color(2);
     for (std::size_t i = 0; i < count_of(call); ++i) {
-        const float n = call.own.color(1)[0][i];
+        const float n = call.loads.color(1)[0][i];
         if (!(n > 0 && sum[3][i] > 0)) continue;
         const float through = 1.0f - sum[3][i] / n;
         for (std::size_t c = 0; c < 3; ++c)
@@ -132,51 +132,52 @@ void average_without_power(const Names& names, const ProgramCall& call) {
 }
 
 const Mistake program_mistakes[] = {
-    {"premultiplied_twice", "colours multiplied by their alpha twice", Place::programs,
+    {"premultiplied_twice", "colours multiplied by their alpha twice", ChangedPart::programs,
      [](Experiment& e) {
          return before_programs(e, [](FragmentBatch& in) {
              for (std::size_t c = 0; c < 3; ++c)
                  for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) in.color[c][i] *= in.color[3][i];
          });
      }},
-    {"not_premultiplied", "colours not multiplied by their alpha", Place::programs,
+    {"not_premultiplied", "colours not multiplied by their alpha", ChangedPart::programs,
      [](Experiment& e) { return behind_programs(e, pipeline::PassKind::geometry, leave_straight); }},
     {"far_layer_premultiplied", "dual peeling's far layer premultiplied, and times alpha once more as it is blended",
-     Place::programs,
+     ChangedPart::programs,
      [](Experiment& e) { return behind_programs(e, pipeline::PassKind::geometry, premultiply_far_layer); }},
-    {"alpha_squared", "alpha multiplied by itself", Place::programs,
+    {"alpha_squared", "alpha multiplied by itself", ChangedPart::programs,
      [](Experiment& e) {
          return before_programs(e, [](FragmentBatch& in) {
              for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) in.color[3][i] *= in.color[3][i];
          });
      }},
-    {"alpha_inverted", "1 - alpha for alpha", Place::programs,
+    {"alpha_inverted", "1 - alpha for alpha", ChangedPart::programs,
      [](Experiment& e) {
          return before_programs(e, [](FragmentBatch& in) {
              for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
                  in.color[3][i] = 1.0f - in.color[3][i];
          });
      }},
-    {"peels_again", "fragments at the peeled depth peeled again: <= for <", Place::programs,
+    {"peels_again", "fragments at the peeled depth peeled again: <= for <", ChangedPart::programs,
      [](Experiment& e) { return behind_programs(e, pipeline::PassKind::geometry, peel_again); }},
     {"program_without_transmittance", "the front colour blended by the program without (1 - alpha) of the front",
-     Place::programs,
+     ChangedPart::programs,
      [](Experiment& e) { return behind_programs(e, pipeline::PassKind::geometry, forget_transmittance); }},
-    {"average_without_power", "one fragment's transmittance for that of all: (1 - a) for (1 - a)^n", Place::programs,
+    {"average_without_power", "one fragment's transmittance for that of all: (1 - a) for (1 - a)^n",
+     ChangedPart::programs,
      [](Experiment& e) { return behind_programs(e, pipeline::PassKind::full_screen, average_without_power); }},
-    {"nothing_behind", "what lies behind the front left out of the last quad", Place::programs,
+    {"nothing_behind", "what lies behind the front left out of the last quad", ChangedPart::programs,
      [](Experiment& e) {
          return behind_programs(e, pipeline::PassKind::full_screen, [](const Names& names, const ProgramCall& call) {
              if (!is_last_quad(names, call.state)) return;
              for (std::size_t c = 0; c < 3; ++c)
-                 std::copy_n(call.own.color(0)[c].begin(), count_of(call), call.out.color[0][c].begin());
+                 std::copy_n(call.loads.color(0)[c].begin(), count_of(call), call.out.color[0][c].begin());
          });
      }},
-    {"alpha_left", "the front's own alpha left in the picture", Place::programs,
+    {"alpha_left", "the front's own alpha left in the picture", ChangedPart::programs,
      [](Experiment& e) {
          return behind_programs(e, pipeline::PassKind::full_screen, [](const Names& names, const ProgramCall& call) {
              if (is_last_quad(names, call.state))
-                 std::copy_n(call.own.color(0)[3].begin(), count_of(call), call.out.color[0][3].begin());
+                 std::copy_n(call.loads.color(0)[3].begin(), count_of(call), call.out.color[0][3].begin());
          });
      }},
 };

@@ -157,7 +157,7 @@ bool loses_perspective(Experiment& e, Weighting weighting) {
 }
 
 const Mistake scene_mistakes[] = {
-    {"colors_affine", "colours interpolated linearly over the window, without perspective", Place::scene,
+    {"colors_affine", "colours interpolated linearly over the window, without perspective", ChangedPart::scene,
      [](Experiment& e) {
          if (!has_slopes(e)) return false;
          if (has_quotient_depth(e)) return loses_perspective(e, Weighting::affine);
@@ -165,16 +165,16 @@ const Mistake scene_mistakes[] = {
          make_affine(e);
          return true;
      }},
-    {"colors_unnormalised", "colours over w interpolated and not divided by 1 / w again", Place::scene,
+    {"colors_unnormalised", "colours over w interpolated and not divided by 1 / w again", ChangedPart::scene,
      [](Experiment& e) { return has_slopes(e) && loses_perspective(e, Weighting::unnormalised); }},
-    {"colors_flat", "flat colours: each triangle has that of its last corner", Place::scene,
+    {"colors_flat", "flat colours: each triangle has that of its last corner", ChangedPart::scene,
      [](Experiment& e) {
          std::ranges::for_each(e.scene().meshes, flatten);
          // A constant divided by w and then by 1 / w is rounded twice, a flat colour is not.
          if (!is_textured(e) && !has_quotient_depth(e)) make_affine(e);
          return true;
      }},
-    {"colors_decoded", "colours decoded from sRGB before they are blended", Place::scene,
+    {"colors_decoded", "colours decoded from sRGB before they are blended", ChangedPart::scene,
      [](Experiment& e) {
          const auto decode = [](Rgba& color) {
              for (std::size_t c = 0; c < 3; ++c) color[c] = scenes::decode_srgb(color[c]);
@@ -186,31 +186,31 @@ const Mistake scene_mistakes[] = {
          for (Mesh& mesh : e.scene().meshes) std::ranges::for_each(mesh.colors, decode);
          return true;
      }},
-    {"light_lost", "lighting left out", Place::scene,
+    {"light_lost", "lighting left out", ChangedPart::scene,
      [](Experiment& e) { return changes(e.scene().materials, [](Material& m) { m.unlit = true; }); }},
-    {"alpha_of_material_lost", "the material's alpha lost: only the vertices' own counts", Place::scene,
+    {"alpha_of_material_lost", "the material's alpha lost: only the vertices' own counts", ChangedPart::scene,
      [](Experiment& e) { return changes(e.scene().materials, [](Material& m) { m.front[3] = m.back[3] = 1; }); }},
-    {"alpha_of_vertices_lost", "the vertices' own alpha lost: only the material's counts", Place::scene,
+    {"alpha_of_vertices_lost", "the vertices' own alpha lost: only the material's counts", ChangedPart::scene,
      [](Experiment& e) {
          return changes(e.scene().meshes, [](Mesh& mesh) {
              for (Rgba& color : mesh.colors) color[3] = 1;
          });
      }},
-    {"one_sided_colors", "back faces in the colour of front faces", Place::scene,
+    {"one_sided_colors", "back faces in the colour of front faces", ChangedPart::scene,
      [](Experiment& e) { return changes(e.scene().materials, [](Material& m) { m.back = m.front; }); }},
-    {"culls_nothing", "nothing culled", Place::scene,
+    {"culls_nothing", "nothing culled", ChangedPart::scene,
      [](Experiment& e) { return changes(e.scene().materials, [](Material& m) { m.double_sided = true; }); }},
-    {"culls_all_backs", "back faces culled of two-sided surfaces, too", Place::scene,
+    {"culls_all_backs", "back faces culled of two-sided surfaces, too", ChangedPart::scene,
      [](Experiment& e) { return changes(e.scene().materials, [](Material& m) { m.double_sided = false; }); }},
-    {"mask_ignored", "the alpha test of masked materials left out", Place::scene,
+    {"mask_ignored", "the alpha test of masked materials left out", ChangedPart::scene,
      [](Experiment& e) {
          return changes(e.scene().materials, [](Material& m) {
              if (m.alpha_mode == AlphaMode::mask) m.alpha_cutoff = 0;
          });
      }},
-    {"texture_lost", "textures left out", Place::scene,
+    {"texture_lost", "textures left out", ChangedPart::scene,
      [](Experiment& e) { return changes(e.scene().materials, [](Material& m) { m.texture = -1; }); }},
-    {"texture_upside_down", "textures upside down: their first row taken for the lowest", Place::scene,
+    {"texture_upside_down", "textures upside down: their first row taken for the lowest", ChangedPart::scene,
      [](Experiment& e) {
          return is_textured(e) && changes(e.scene().textures, [](Texture& t) {
                     const auto row = static_cast<std::ptrdiff_t>(t.width) * 4;
@@ -220,33 +220,33 @@ const Mistake scene_mistakes[] = {
                 });
      }},
     {"texture_filtered_otherwise", "the nearest texel instead of four weighted ones, or the other way round",
-     Place::scene,
+     ChangedPart::scene,
      [](Experiment& e) {
          using pipeline::TextureFilter;
          return is_textured(e) && changes(e.scene().textures, [](Texture& t) {
                     t.filter = t.filter == TextureFilter::linear ? TextureFilter::nearest : TextureFilter::linear;
                 });
      }},
-    {"texture_clamped", "textures clamped to their edge instead of repeated", Place::scene,
+    {"texture_clamped", "textures clamped to their edge instead of repeated", ChangedPart::scene,
      [](Experiment& e) {
          return is_textured(e) && changes(e.scene().textures, [](Texture& t) {
                     t.wrap_s = t.wrap_t = pipeline::TextureWrap::clamp_to_edge;
                 });
      }},
-    {"opaque_lost", "the opaque surfaces not drawn", Place::scene,
+    {"opaque_lost", "the opaque surfaces not drawn", ChangedPart::scene,
      [](Experiment& e) {
          DrawList& list = e.scene();
          return std::erase_if(list.instances, [&](const pipeline::Instance& i) {
                     return list.materials[i.material].alpha_mode != AlphaMode::blend;
                 }) > 0;
      }},
-    {"opaque_peeled", "opaque surfaces peeled like transparent ones", Place::scene,
+    {"opaque_peeled", "opaque surfaces peeled like transparent ones", ChangedPart::scene,
      [](Experiment& e) {
          return changes(e.scene().materials, [](Material& m) {
              if (m.alpha_mode == AlphaMode::opaque) m.alpha_mode = AlphaMode::blend;
          });
      }},
-    {"order_reversed", "triangles submitted in the reverse order", Place::scene,
+    {"order_reversed", "triangles submitted in the reverse order", ChangedPart::scene,
      [](Experiment& e) {
          DrawList& list = e.scene();
          std::ranges::reverse(list.instances);

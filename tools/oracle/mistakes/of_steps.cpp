@@ -163,53 +163,53 @@ bool writes_depth_of_blended(Experiment& e) {
 }
 
 const Mistake step_mistakes[] = {
-    {"stencil_not_cleared", "the stencil not cleared between passes", Place::steps,
+    {"stencil_not_cleared", "the stencil not cleared between passes", ChangedPart::steps,
      [](Experiment& e) {
          return in_clears(e, [](const Names& names, Region&, RenderTarget target, ClearValue&) {
              return !names.is(target, "stencil");
          });
      }},
-    {"last_of_equals", "of equal depths the last fragment kept: LEQUAL for LESS", Place::steps,
+    {"last_of_equals", "of equal depths the last fragment kept: LEQUAL for LESS", ChangedPart::steps,
      [](Experiment& e) {
          return in_geometry_passes(e, [](const Names&, PassState& state) {
              if (state.depth.func == CompareFunc::less) state.depth.func = CompareFunc::lequal;
          });
      }},
-    {"farthest_first", "the farthest fragment kept: GREATER for LESS", Place::steps,
+    {"farthest_first", "the farthest fragment kept: GREATER for LESS", ChangedPart::steps,
      [](Experiment& e) {
          return in_geometry_passes(e, [](const Names&, PassState& state) {
              if (state.depth.func == CompareFunc::less) state.depth.func = CompareFunc::greater;
          });
      }},
-    {"depth_not_written", "depth writes left off", Place::steps,
+    {"depth_not_written", "depth writes left off", ChangedPart::steps,
      [](Experiment& e) {
          return in_geometry_passes(e, [](const Names&, PassState& state) { state.depth.write = false; });
      }},
-    {"depth_not_tested", "the depth test left off: every fragment passes", Place::steps,
+    {"depth_not_tested", "the depth test left off: every fragment passes", ChangedPart::steps,
      [](Experiment& e) {
          return in_geometry_passes(e, [](const Names&, PassState& state) { state.depth.func = CompareFunc::always; });
      }},
-    {"opaque_depth_lost", "transparent surfaces not hidden by opaque ones: their depth is lost", Place::steps,
+    {"opaque_depth_lost", "transparent surfaces not hidden by opaque ones: their depth is lost", ChangedPart::steps,
      loses_opaque_depth},
-    {"swapped_factors", "source and destination factors of blending exchanged", Place::steps,
+    {"swapped_factors", "source and destination factors of blending exchanged", ChangedPart::steps,
      [](Experiment& e) {
          return in_blends(e, [](Blend& blend) {
              std::swap(blend.color.src, blend.color.dst);
              std::swap(blend.alpha.src, blend.alpha.dst);
          });
      }},
-    {"one_blend_function", "alpha blended by the factors of the colours: one blend function for both", Place::steps,
-     [](Experiment& e) { return in_blends(e, [](Blend& blend) { blend.alpha = blend.color; }); }},
-    {"blending_off", "blending never enabled", Place::steps,
+    {"one_blend_function", "alpha blended by the factors of the colours: one blend function for both",
+     ChangedPart::steps, [](Experiment& e) { return in_blends(e, [](Blend& blend) { blend.alpha = blend.color; }); }},
+    {"blending_off", "blending never enabled", ChangedPart::steps,
      [](Experiment& e) { return in_blends(e, [](Blend& blend) { blend.enabled = false; }); }},
     {"under_without_transmittance", "layers added in front without the transmittance of what lies before them",
-     Place::steps,
+     ChangedPart::steps,
      [](Experiment& e) {
          return in_blends(e, [](Blend& blend) {
              if (is(blend, blend_mode::under)) blend.color.src = BlendFactor::one;
          });
      }},
-    {"over_for_under", "layers blended OVER what lies before them instead of UNDER it", Place::steps,
+    {"over_for_under", "layers blended OVER what lies before them instead of UNDER it", ChangedPart::steps,
      [](Experiment& e) {
          return in_blends(e, [](Blend& blend) {
              if (!is(blend, blend_mode::under)) return;
@@ -218,26 +218,27 @@ const Mistake step_mistakes[] = {
          });
      }},
     {"premultiplied_over_for_under",
-     "premultiplied colours blended OVER what lies before them, by (ONE, 1 - alpha), instead of UNDER it", Place::steps,
+     "premultiplied colours blended OVER what lies before them, by (ONE, 1 - alpha), instead of UNDER it",
+     ChangedPart::steps,
      [](Experiment& e) {
          return in_blends(e, [](Blend& blend) {
              if (!is(blend, blend_mode::under)) return;
              blend.color = {BlendEquation::add, BlendFactor::one, BlendFactor::one_minus_src_alpha};
          });
      }},
-    {"min_for_max", "MIN blending for MAX", Place::steps,
+    {"min_for_max", "MIN blending for MAX", ChangedPart::steps,
      [](Experiment& e) {
          return in_blends(e, [](Blend& blend) {
              if (is(blend, blend_mode::max)) blend.color.equation = blend.alpha.equation = BlendEquation::min;
          });
      }},
-    {"add_for_max", "the equation of blending left at ADD where MAX is meant", Place::steps,
+    {"add_for_max", "the equation of blending left at ADD where MAX is meant", ChangedPart::steps,
      [](Experiment& e) {
          return in_blends(e, [](Blend& blend) {
              if (is(blend, blend_mode::max)) blend.color.equation = blend.alpha.equation = BlendEquation::add;
          });
      }},
-    {"alpha_written", "alpha written where the write mask shall keep it", Place::steps,
+    {"alpha_written", "alpha written where the write mask shall keep it", ChangedPart::steps,
      [](Experiment& e) {
          e.profile.has_independent_blend = true;
          e.alterations.push_back({.pass = [](Region&, PassState& state, pipeline::PassKind) {
@@ -245,72 +246,72 @@ const Mistake step_mistakes[] = {
          }});
          return true;
      }},
-    {"count_not_added", "fragments not counted: the count's target does not blend", Place::steps,
+    {"count_not_added", "fragments not counted: the count's target does not blend", ChangedPart::steps,
      [](Experiment& e) {
          e.profile.has_independent_blend = true;
          return in_geometry_passes(e, [](const Names& names, PassState& state) {
              if (names.is(state.color[1], "count")) state.blend[1] = blend_mode::replace;
          });
      }},
-    {"front_cleared_wrong", "the front's alpha cleared to 0 instead of 1, or the other way round", Place::steps,
+    {"front_cleared_wrong", "the front's alpha cleared to 0 instead of 1, or the other way round", ChangedPart::steps,
      [](Experiment& e) {
          return in_clears(e, [](const Names& names, Region&, RenderTarget target, ClearValue& value) {
              if (is_front(names, target)) value.color[3] = 1 - value.color[3];
              return true;
          });
      }},
-    {"layer_cleared_opaque", "layers cleared to alpha 1: black where a pixel has none", Place::steps,
+    {"layer_cleared_opaque", "layers cleared to alpha 1: black where a pixel has none", ChangedPart::steps,
      [](Experiment& e) {
          return in_clears(e, [](const Names& names, Region&, RenderTarget target, ClearValue& value) {
              if (is_layer(names, target)) value.color[3] = 1;
              return true;
          });
      }},
-    {"layer_not_cleared", "layers not cleared between passes", Place::steps,
+    {"layer_not_cleared", "layers not cleared between passes", ChangedPart::steps,
      [](Experiment& e) {
          return in_clears(
              e, [](const Names& names, Region&, RenderTarget target, ClearValue&) { return !is_layer(names, target); });
      }},
-    {"min_max_cleared_to_0", "the min-max depth cleared to (0, 0) instead of (-1, -1)", Place::steps,
+    {"min_max_cleared_to_0", "the min-max depth cleared to (0, 0) instead of (-1, -1)", ChangedPart::steps,
      [](Experiment& e) {
          return in_clears(e, [](const Names& names, Region&, RenderTarget target, ClearValue& value) {
              if (names.is(target, "min_max")) value.color = {0, 0, 0, 0};
              return true;
          });
      }},
-    {"min_max_cleared_to_0_1", "the min-max depth cleared to (0, 1): the whole range", Place::steps,
+    {"min_max_cleared_to_0_1", "the min-max depth cleared to (0, 1): the whole range", ChangedPart::steps,
      [](Experiment& e) {
          return in_clears(e, [](const Names& names, Region&, RenderTarget target, ClearValue& value) {
              if (names.is(target, "min_max")) value.color = {0, 1, 0, 0};
              return true;
          });
      }},
-    {"ping_pong_not_swapped", "the two targets of a pair never swapped", Place::steps, swaps_nothing},
-    {"query_above_one", "the peel ended by a query that counts one: > 1 for > 0", Place::steps, stops_at_one},
+    {"ping_pong_not_swapped", "the two targets of a pair never swapped", ChangedPart::steps, swaps_nothing},
+    {"query_above_one", "the peel ended by a query that counts one: > 1 for > 0", ChangedPart::steps, stops_at_one},
     {"query_half_of_first", "the peel ended once a query counts less than half of what the first one counted",
-     Place::steps,
+     ChangedPart::steps,
      [](Experiment& e) {
          return in_queries(e, [first = std::uint64_t{0}](std::uint64_t count, bool goes_on) mutable {
              if (first == 0) first = count;
              return goes_on && 2 * count >= first;
          });
      }},
-    {"stencil_wraps", "stencil operations that wrap where they shall stop at the end of the range", Place::steps,
+    {"stencil_wraps", "stencil operations that wrap where they shall stop at the end of the range", ChangedPart::steps,
      [](Experiment& e) {
          return in_geometry_passes(e, [](const Names&, PassState& state) {
              wrap(state.stencil.front);
              wrap(state.stencil.back);
          });
      }},
-    {"stencil_off", "the stencil test never enabled", Place::steps,
+    {"stencil_off", "the stencil test never enabled", ChangedPart::steps,
      [](Experiment& e) {
          return in_geometry_passes(e, [](const Names&, PassState& state) { state.stencil.enabled = false; });
      }},
-    {"not_sorted", "layers blended in the order of submission: nothing is sorted", Place::steps, sorts_nothing},
+    {"not_sorted", "layers blended in the order of submission: nothing is sorted", ChangedPart::steps, sorts_nothing},
     {"blended_writes_depth",
      "blended surfaces write depth, in the order of submission: what lies behind one drawn before is lost",
-     Place::steps, writes_depth_of_blended},
-    {"stencil_ref_off_by_one", "the stencil's reference one too great", Place::steps,
+     ChangedPart::steps, writes_depth_of_blended},
+    {"stencil_ref_off_by_one", "the stencil's reference one too great", ChangedPart::steps,
      [](Experiment& e) {
          return in_geometry_passes(e, [](const Names&, PassState& state) { ++state.stencil.front.ref; });
      }},

@@ -65,7 +65,7 @@ bool explains_origin(const PassAgreement& machine, const PassAgreement& right) {
            is_later(machine.first_far, right.first_far);
 }
 
-void PassEvidence::add(const PassShown& pass, std::span<const Target> instead) {
+void PassEvidence::add(const PassReport& pass, std::span<const Target> instead) {
     if (pass.kind == PassKind::published) return;
     const auto other = std::ranges::find(candidate_, pass.number, &PassPicture::number);
     if (other == candidate_.end()) return;

@@ -15,7 +15,7 @@ namespace strata::oracle {
 struct Target;  // tools/oracle/picture.h
 
 struct PassPicture;  // tools/oracle/pack/pack_pictures.h
-struct PassShown;    // tools/oracle/passes.h
+struct PassReport;   // tools/oracle/passes.h
 
 struct PassAgreement {
     int targets = 0, alike = 0;       // targets: compared; alike: equal in all codes
@@ -36,7 +36,7 @@ class PassEvidence {
     // `candidate` must outlive this.
     explicit PassEvidence(const std::vector<PassPicture>& candidate) : candidate_{candidate} {}
     // A target that is not the candidate's may be replaced by the one of `instead` with its name.
-    void add(const PassShown& pass, std::span<const Target> instead = {});
+    void add(const PassReport& pass, std::span<const Target> instead = {});
     [[nodiscard]] const PassAgreement& found() const noexcept { return found_; }
 
   private:

@@ -38,7 +38,8 @@ std::vector<Mistakes> hypotheses(const std::vector<Diagnosis>& scenes) {
 ScenesFinding judged(const Mistakes& mistakes, const std::vector<SceneEvidence>& scenes, const Tolerances& tolerances) {
     ScenesFinding found{.mistakes = mistakes};
     for (const SceneEvidence& scene : scenes) {
-        const Lineup::Judged here = scene.lineup->judge(mistakes, *scene.candidate, tolerances, scene.passes);
+        const MistakeImages::Judgement here =
+            scene.mistake_images->judge(mistakes, *scene.candidate, tolerances, scene.passes);
         found.fits.push_back(here.fits);
         found.explained += here.finding.explained;
         if (here.fits && here.finding.passes) found.targets_alike += here.finding.passes->alike;
@@ -72,7 +73,7 @@ ScenesDiagnosis diagnose_scenes(const std::vector<SceneEvidence>& scenes, const 
                                 const ShowProgress& progress) {
     ScenesDiagnosis result;
     for (const SceneEvidence& scene : scenes) {
-        result.scenes.push_back(scene.lineup->diagnose(*scene.candidate, tolerances, {}, scene.passes));
+        result.scenes.push_back(scene.mistake_images->diagnose(*scene.candidate, tolerances, {}, scene.passes));
         result.pixels += result.scenes.back().pixels;
         result.differing += result.scenes.back().differing;
         if (progress) progress(0.8 * static_cast<double>(result.scenes.size()) / static_cast<double>(scenes.size()));

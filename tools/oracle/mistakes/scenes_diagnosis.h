@@ -17,7 +17,7 @@ namespace strata::oracle {
 // A port's image of one scene. Objects that it points to must outlive the diagnosis.
 struct SceneEvidence {
     std::string name{};
-    const Lineup* lineup = nullptr;
+    const MistakeImages* mistake_images = nullptr;
     const Picture* candidate = nullptr;
     const std::vector<PassPicture>* passes = nullptr;  // null if there are none
 };

@@ -22,7 +22,7 @@ std::string verdict_line(const ScenesDiagnosis& d) {
     const ScenesFinding& best = d.findings.front();
     const std::size_t scenes = d.scenes.size();
     if (d.verdict != Verdict::unknown_mistake)
-        return fmt::format("all {} scenes are those of: {}\n", scenes, sentence_of(best.mistakes));
+        return fmt::format("all {} scenes are those of: {}\n", scenes, description_of(best.mistakes));
     return fmt::format(
         "none that is known: {} of {} pixels differ from the right pictures, and no known mistake, nor two of them, "
         "explains "
@@ -42,7 +42,7 @@ std::string line_of_scene(const Diagnosis& d, const SceneReport& report, bool fi
     const bool is_none = d.verdict == Verdict::unknown_mistake;
     return fmt::format("  {}: {} of {} pixels differ{}; by itself {}{}\n", report.name, d.differing, d.pixels,
                        kinds_of(report.comparison),
-                       is_none ? "none that is known" : sentence_of(d.findings.front().mistakes),
+                       is_none ? "none that is known" : description_of(d.findings.front().mistakes),
                        fits ? "" : "; not what is named above");
 }
 
@@ -66,7 +66,7 @@ std::string to_text(const ScenesDiagnosis& d, const std::vector<SceneReport>& re
     const bool is_none = d.verdict == Verdict::unknown_mistake;
     std::string text = verdict_line(d);
     for (const Mistake* mistake : best.alike)
-        text += fmt::format("  the same in all of them: {} ({})\n", mistake->sentence, mistake->name);
+        text += fmt::format("  the same in all of them: {} ({})\n", mistake->description, mistake->name);
     for (std::size_t i = 0; i < d.scenes.size(); ++i)
         text += line_of_scene(d.scenes[i], reports[i], is_none || best.fits[i]);
     if (d.verdict == Verdict::right) return text;
@@ -74,7 +74,7 @@ std::string to_text(const ScenesDiagnosis& d, const std::vector<SceneReport>& re
     if (first < end) text += is_none ? "the best:\n" : "the next best:\n";
     for (std::size_t i = first; i < end; ++i)
         text += fmt::format("  {} of {} scenes: {}\n", fitting(d.findings[i]), d.scenes.size(),
-                            sentence_of(d.findings[i].mistakes));
+                            description_of(d.findings[i].mistakes));
     return text;
 }
 
@@ -92,11 +92,11 @@ std::string to_json(const ScenesDiagnosis& d, const std::vector<SceneReport>& re
                                       {"mistakes", names_in(d.scenes[i].findings.front().mistakes)},
                                       {"kinds", kinds_in(reports[i].comparison)}});
     for (const ScenesFinding& f : d.findings) {
-        ordered_json sentences = ordered_json::array(), fits = ordered_json::array();
-        for (const Mistake* mistake : f.mistakes) sentences.push_back(mistake->sentence);
+        ordered_json descriptions = ordered_json::array(), fits = ordered_json::array();
+        for (const Mistake* mistake : f.mistakes) descriptions.push_back(mistake->description);
         for (const bool fit : f.fits) fits.push_back(fit);
         document["findings"].push_back({{"mistakes", names_in(f.mistakes)},
-                                        {"sentences", std::move(sentences)},
+                                        {"sentences", std::move(descriptions)},
                                         {"fits", std::move(fits)},
                                         {"explained", f.explained},
                                         {"targets_alike", f.targets_alike},

@@ -45,7 +45,7 @@ std::string list_of(const std::vector<TableColumn>& columns) {
     const auto all = catalogue();
     for (std::size_t m = 0; m < all.size(); ++m)
         list["mistakes"].push_back({{"name", all[m].name},
-                                    {"sentence", all[m].sentence},
+                                    {"sentence", all[m].description},
                                     {"named_first", scenes_with(columns, m, Cell::named, Cell::named)},
                                     {"beside_another", scenes_with(columns, m, Cell::alike, Cell::alike)},
                                     {"named_otherwise", scenes_with(columns, m, Cell::wrong, Cell::accused)},
@@ -141,7 +141,7 @@ std::vector<PackFault> check_suite(const std::string& path, Simd simd, const Sho
     std::size_t checked = 0;
     for (const SuiteScene* scene : listed) {
         for (const PackFault& fault : check_pack(folder + "/" + scene->name, simd))
-            faults.push_back({scene->name + "/" + fault.file, fault.sentence});
+            faults.push_back({scene->name + "/" + fault.file, fault.message});
         if (progress) progress(0.5 * static_cast<double>(++checked) / static_cast<double>(listed.size()));
     }
     const std::string derived = list_of(columns_of(listed, progress));

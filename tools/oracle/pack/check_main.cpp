@@ -15,8 +15,7 @@ std::size_t check(const std::string& pack) {
     std::size_t faults = 0;
     for (const strata::Simd simd : strata::available_simd()) {
         const auto found = strata::oracle::check_pack(pack, simd);
-        for (const strata::oracle::PackFault& fault : found)
-            fmt::print("{}/{}: {}\n", pack, fault.file, fault.sentence);
+        for (const strata::oracle::PackFault& fault : found) fmt::print("{}/{}: {}\n", pack, fault.file, fault.message);
         fmt::print("{}, {}: {}\n", pack, strata::enum_names<strata::Simd>[static_cast<std::size_t>(simd)],
                    found.empty() ? "every file is what is derived here" : "differs");
         faults += found.size();

@@ -109,8 +109,8 @@ class Check {
         const ManifestValue listed = ManifestValue{manifest, file}.object("files");
         for (const auto& [name, entry] : listed.value().items()) {
             const ManifestValue described = listed.object(name);
-            if (scenes::inside_folder(folder_, name).found != scenes::InsideFolder::Found::nothing)
-                static_cast<void>(scenes::path_inside(folder_, name, file, listed.place_of(name)));
+            if (scenes::inside_folder(folder_, name).status != scenes::InsideFolder::PathStatus::nothing)
+                static_cast<void>(scenes::path_inside(folder_, name, file, listed.pointer_to(name)));
             if (const auto bytes = read(name)) note(name, listed_difference(*bytes, name, described));
         }
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
@@ -126,7 +126,7 @@ class Check {
 
     // Checks EXR copies against arrays that passed the check.
     void copies() {
-        for (const PackFault& fault : check_exr_copies(folder_, copies_)) note(fault.file, fault.sentence);
+        for (const PackFault& fault : check_exr_copies(folder_, copies_)) note(fault.file, fault.message);
     }
 
     void derived(const Golden& golden) {
@@ -138,9 +138,9 @@ class Check {
                 has_older_profile_ = true;
                 return;
             }
-            const std::string sentence =
+            const std::string message =
                 name == "manifest.json" ? manifest_fault(*found, expected) : difference(*found, expected, name);
-            note(name, sentence);
+            note(name, message);
         });
     }
 
@@ -165,9 +165,9 @@ class Check {
         return older == now ? "" : manifest_difference(found, now.dump(1) + '\n');
     }
 
-    void note(const std::string& name, const std::string& sentence) {
-        if (sentence.empty() || !known_.insert(name).second) return;
-        faults.push_back({name, sentence});
+    void note(const std::string& name, const std::string& message) {
+        if (message.empty() || !known_.insert(name).second) return;
+        faults.push_back({name, message});
     }
 
     std::string folder_;

@@ -104,8 +104,8 @@ std::vector<PackFault> check_exr_copies(const std::string& folder, const std::ve
     if (copies.empty()) return faults;
     const std::vector<PackPictures> expected = expected_pictures(folder);
     for (const std::string& file : copies)
-        if (const std::string sentence = fault_of(expected, folder, file); !sentence.empty())
-            faults.push_back({file, sentence});
+        if (const std::string message = fault_of(expected, folder, file); !message.empty())
+            faults.push_back({file, message});
     return faults;
 }
 

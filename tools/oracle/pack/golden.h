@@ -40,7 +40,7 @@ void write_pack(const Golden& golden, const std::string& folder, Copies copies =
 
 // A file that differs from the expected one.
 struct PackFault {
-    std::string file, sentence{};  // "byte 1234, row 3, column 5, channel 1: expected 17, found 18"
+    std::string file, message{};  // "byte 1234, row 3, column 5, channel 1: expected 17, found 18"
 };
 
 // Empty if the pack is unchanged. Files are compared with the manifest's list, then with a new derivation on the

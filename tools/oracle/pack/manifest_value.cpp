@@ -25,7 +25,7 @@ ManifestValue::ManifestValue(const json& value, const std::string& file, std::st
 
 ManifestValue ManifestValue::object(const std::string& key) const {
     static const json none = json::object();
-    return {at_or(*value_, key, none), *file_, place_of(key)};
+    return {at_or(*value_, key, none), *file_, pointer_to(key)};
 }
 
 std::vector<ManifestValue> ManifestValue::list(const std::string& key) const {
@@ -34,7 +34,7 @@ std::vector<ManifestValue> ManifestValue::list(const std::string& key) const {
     if (!found.is_array()) fail(key, "an array");
     std::vector<ManifestValue> values;
     for (std::size_t i = 0; i < found.size(); ++i)
-        values.push_back({found[i], *file_, place_of(key) + "/" + std::to_string(i)});
+        values.push_back({found[i], *file_, pointer_to(key) + "/" + std::to_string(i)});
     return values;
 }
 
@@ -71,7 +71,7 @@ void ManifestValue::fail(const std::string& key, const std::string& expected) co
                               : found->is_structured()
                                   ? found->type_name()
                                   : found->dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 64);
-    throw InputError(*file_, place_of(key), expected, shown);
+    throw InputError(*file_, pointer_to(key), expected, shown);
 }
 
 }  // namespace strata::oracle

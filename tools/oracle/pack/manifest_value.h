@@ -24,7 +24,7 @@ class ManifestValue {
     // A name without a slash, so that it can be part of a path.
     [[nodiscard]] std::string name(const std::string& key) const;
     [[nodiscard]] const nlohmann::json& value() const noexcept { return *value_; }
-    [[nodiscard]] std::string place_of(const std::string& key) const { return pointer_ + "/" + key; }
+    [[nodiscard]] std::string pointer_to(const std::string& key) const { return pointer_ + "/" + key; }
     [[noreturn]] void fail(const std::string& key, const std::string& expected) const;
 
   private:

@@ -144,7 +144,7 @@ std::vector<PackPictures> expected_pictures(const std::string& path) {
     const std::string folder = scenes::pack_folder(path);
     const std::string manifest = folder + "/manifest.json";
     const auto find = [&](const ManifestValue& target, const std::string&) -> std::optional<std::string> {
-        return scenes::path_inside(folder, target.text("file"), manifest, target.place_of("file"));
+        return scenes::path_inside(folder, target.text("file"), manifest, target.pointer_to("file"));
     };
     return all_of(folder, Reader{find, true});
 }

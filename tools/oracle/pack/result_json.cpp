@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json pass_json(const PassShown& pass, TargetWriter& targets) {
+ordered_json pass_json(const PassReport& pass, TargetWriter& targets) {
     ordered_json object{
         {"number", pass.number},           {"kind", name(pass.kind)}, {"iteration", pass.iteration},
         {"before", pass.before},           {"reads", pass.reads},     {"writes", pass.writes},
@@ -33,7 +33,7 @@ void add_passes(const RunInput& input, const peeling::Algorithm& algorithm, Targ
                 ordered_json& object) {
     int geometry = 0, full_screen = 0;
     ordered_json list = ordered_json::array(), picture;
-    passes(input, algorithm, [&](PassShown&& pass) {
+    passes(input, algorithm, [&](PassReport&& pass) {
         if (pass.kind == PassKind::published) {
             picture = targets.write("", "picture", pass.targets.at(0).image);
             return;
@@ -61,7 +61,7 @@ void add_layers(const RunInput& input, const peeling::Algorithm& algorithm, Targ
     object["premultiplied_layers"] = algorithm.premultiplied_layers;
     object["layers"] = ordered_json::array();
     int front = 0, back = 0;
-    for (const pipeline::KeptLayer& layer : result.frame.layers) {
+    for (const pipeline::PeeledLayer& layer : result.frame.layers) {
         const bool is_back = layer.side == pipeline::Side::back;
         const char* end = !algorithm.takes_both_ends ? "layer" : is_back ? "back" : "front";
         const std::string name = fmt::format("{}.{:03}", end, is_back ? back++ : front++);

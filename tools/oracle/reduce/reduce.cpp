@@ -292,7 +292,7 @@ std::optional<Reduction> reduce(const Golden& scene, const Candidate& candidate,
     return Reducer{scene, candidate, on_run, rules}.run();
 }
 
-std::string Reduction::sentence() const {
+std::string Reduction::description() const {
     const bool is_whole = window == Rect{0, 0, scene.options.width, scene.options.height};
     const std::string of = is_whole ? "" : fmt::format("{}x{} pixels of ", window.width(), window.height());
     std::string text = fmt::format("{} in {}a frame of {}x{} still differ{} in {}: {} of {} in {}x{}, after {} runs",

@@ -45,7 +45,7 @@ struct Reduction {
     Comparison comparison{};              // of the correct image with the candidate's, inside the window
     rasterizer::Rect window{};            // of the smallest scene's frame; all of it unless `Frame::whole` is used
     // "2 triangles in a frame of 1x1 pixels still differ ..."
-    [[nodiscard]] std::string sentence() const;
+    [[nodiscard]] std::string description() const;
 };
 
 // The image that a candidate should draw. Throws Refused.

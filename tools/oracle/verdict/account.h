@@ -18,7 +18,7 @@ struct Account {
 };
 
 // The result of checking one account against all pixels of a picture.
-struct Checked {
+struct CheckedAccount {
     Account account{};
     std::uint64_t pixels = 0, covered = 0;  // covered: those with a visible fragment
     Ties ties{};

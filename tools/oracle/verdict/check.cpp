@@ -30,8 +30,8 @@ double levels_of(Storage storage) noexcept {
 }
 
 // Updates the largest distance of a pixel from the exact result, and the largest that its interval allows.
-void measure(const Stack& stack, const Reach& reach, const std::array<double, 4>& value, Storage storage,
-             Checked& found) {
+void measure(const Stack& stack, const ReachableColor& reach, const std::array<double, 4>& value, Storage storage,
+             CheckedAccount& found) {
     const std::array<double, 3> truth = exact(stack);
     const double levels = levels_of(storage);
     const auto as_code = [&](double v) {
@@ -51,19 +51,19 @@ constexpr std::size_t most_examples = 64;
 
 // The result for one tile.
 struct PartChecked {
-    Checked checked{};
+    CheckedAccount checked{};
     TieMask everywhere = all_ties;
     Sample examples;
 };
 
 class Checker {
   public:
-    Checker(const SceneFragments& scene, const Colors& candidate, const Account& account, Wrong allowed)
+    Checker(const SceneFragments& scene, const Colors& candidate, const Account& account, WrongPixels allowed)
         : scene_{scene},
           candidate_{candidate},
           account_{account},
           compositor_{account.hypothesis},
-          most_wrong_{allowed == Wrong::some ? std::numeric_limits<std::size_t>::max() : enough_wrong} {}
+          most_wrong_{allowed == WrongPixels::some ? std::numeric_limits<std::size_t>::max() : enough_wrong} {}
 
     [[nodiscard]] PartChecked part(const TileLists& tile) const {
         StackMaker maker{scene_.setting()};
@@ -78,10 +78,10 @@ class Checker {
 
     void look_at(const PixelList& list, StackMaker& maker, PartChecked& part) const {
         const auto value = candidate_.at(list.x, list.y);
-        Checked& found = part.checked;
+        CheckedAccount& found = part.checked;
         ++found.pixels;
         found.covered += list.visible.empty() ? 0 : 1;
-        const TiesFound way = ties_that_hold(compositor_, account_.rules, list, value, maker);
+        const MatchingTies way = matching_ties(compositor_, account_.rules, list, value, maker);
         const TieMask mask = way.mask;
         if (mask == 0) {
             found.wrong_pixels.push_back(static_cast<std::uint32_t>(list.y * scene_.width() + list.x));
@@ -93,7 +93,7 @@ class Checker {
         found.at_edges += way.at_edge ? 1 : 0;
         if (way.at_edge && part.examples.pixels().size() < most_examples) part.examples.add(list, value);
         const Stack& stack = maker.with(account_.rules, way.list, way.ties, way.is_moved);
-        const Reach reach = compositor_.reach(stack);
+        const ReachableColor reach = compositor_.reach(stack);
         maker.steps().composite(stack.layers.size());
         found.bits += Pricing{account_.hypothesis.result.storage}.of(reach) + (way.at_edge ? Pricing::of_edge : 0);
         if (!way.at_edge) measure(stack, reach, value, account_.hypothesis.result.storage, found);
@@ -105,7 +105,7 @@ class Checker {
         own.is_moved = false;
         if (own == right || (own.mixing != right.mixing && compositor_.reach(own) == compositor_.reach(right))) return;
         ++found.changed;
-        found.undecided += ties_that_hold(compositor_, {}, list, value, maker).mask != 0 ? 1 : 0;
+        found.undecided += matching_ties(compositor_, {}, list, value, maker).mask != 0 ? 1 : 0;
     }
 
     const SceneFragments& scene_;
@@ -115,7 +115,7 @@ class Checker {
     std::size_t most_wrong_;
 };
 
-void merge(const Checked& part, Checked& all) {
+void merge(const CheckedAccount& part, CheckedAccount& all) {
     all.pixels += part.pixels;
     all.covered += part.covered;
     all.tied += part.tied;
@@ -130,10 +130,10 @@ void merge(const Checked& part, Checked& all) {
 
 }  // namespace
 
-Checked check_all(const SceneFragments& scene, const Colors& candidate, const Account& account, Wrong allowed,
-                  Sample& examples) {
+CheckedAccount check_all(const SceneFragments& scene, const Colors& candidate, const Account& account,
+                         WrongPixels allowed, Sample& examples) {
     const Checker checker{scene, candidate, account, allowed};
-    Checked all{.account = account};
+    CheckedAccount all{.account = account};
     TieMask everywhere = all_ties;
     std::mutex mutex;
     scene.for_each_tile([&](const TileLists& tile) {
@@ -151,18 +151,18 @@ Checked check_all(const SceneFragments& scene, const Colors& candidate, const Ac
     return all;
 }
 
-std::optional<Checked> account_for(const Families& all, const std::vector<Rule>& rules, const SceneFragments& scene,
-                                   const Colors& candidate, Sample& sample, const std::optional<Hypothesis>& likely,
-                                   int most_rejected) {
+std::optional<CheckedAccount> account_for(const Families& all, const std::vector<Rule>& rules,
+                                          const SceneFragments& scene, const Colors& candidate, Sample& sample,
+                                          const std::optional<Hypothesis>& likely, int most_rejected) {
     constexpr int most_tries = 3;  // of accounts that need pixels at edges
     constexpr std::size_t most_added = 200;
-    std::optional<Checked> best;
+    std::optional<CheckedAccount> best;
     int rejected = 0;
     for (int helped = 0; helped < most_tries && rejected < most_rejected;) {
-        const auto hypothesis = best_of(all, rules, sample, Wrong::none, helped == 0 ? likely : std::nullopt);
+        const auto hypothesis = best_of(all, rules, sample, WrongPixels::none, helped == 0 ? likely : std::nullopt);
         if (!hypothesis || (best && *hypothesis == best->account.hypothesis)) break;
         Sample examples{scene.setting()};
-        Checked found = check_all(scene, candidate, {rules, *hypothesis}, Wrong::none, examples);
+        CheckedAccount found = check_all(scene, candidate, {rules, *hypothesis}, WrongPixels::none, examples);
         const bool is_done = found.is_whole() && found.at_edges == 0;
         if (found.is_whole()) {
             ++helped;

@@ -25,29 +25,29 @@ double scale_of(Storage storage) noexcept {
 }
 
 // The rounding of an accumulator with only `bits` bits, with the rounding mode of the hypothesis.
-Keeper few_bits(std::uint8_t bits, Rounding rounding) noexcept {
-    Keeper k{.scale = std::exp2(bits) - 1};
+StorageRounding few_bits(std::uint8_t bits, Rounding rounding) noexcept {
+    StorageRounding k{.scale = std::exp2(bits) - 1};
     k.inverse = 1 / k.scale;
-    k.cuts = rounding == Rounding::cut;
+    k.truncates = rounding == Rounding::truncated;
     k.minus = k.plus = rounding == Rounding::any ? 1 : 0.5 + k.scale * single_error;
-    k.cut_low = -k.scale * single_error;
-    k.cut_high = k.scale * single_error;
+    k.truncation_low = -k.scale * single_error;
+    k.truncation_high = k.scale * single_error;
     return k;
 }
 
 // True if the operands of a blend are codes, so that its exact result is a whole number over scale^2.
 bool has_stored_source(Source source) noexcept {
     return source == Source::stored || source == Source::stored_either_way || source == Source::premultiplied ||
-           source == Source::premultiplied_either_way || source == Source::premultiplied_cut;
+           source == Source::premultiplied_either_way || source == Source::premultiplied_truncated;
 }
 
-Keeper keeper(Storage storage, Rounding rounding, bool operands_are_codes) {
-    Keeper k;
+StorageRounding keeper(Storage storage, Rounding rounding, bool operands_are_codes) {
+    StorageRounding k;
     k.scale = scale_of(storage);
     k.has_codes = k.scale > 0;
     if (!k.has_codes) {
-        const bool cuts = rounding != Rounding::nearest && rounding != Rounding::held;
-        k.relative = storage == Storage::half ? (cuts ? 0x1p-10 : 0x1p-11) : (cuts ? 0x1p-23 : 0x1p-24);
+        const bool truncates = rounding != Rounding::nearest && rounding != Rounding::held;
+        k.relative = storage == Storage::half ? (truncates ? 0x1p-10 : 0x1p-11) : (truncates ? 0x1p-23 : 0x1p-24);
         k.relative += single_error;
         k.least = storage == Storage::half ? 0x1p-24 : 0x1p-120;  // covers subnormals, flushed or not
         return k;
@@ -67,10 +67,10 @@ Keeper keeper(Storage storage, Rounding rounding, bool operands_are_codes) {
             k.minus = k.plus = 2 * (0.5 + 1.0 / 64 + error);  // as for two rounded products
             k.snaps = false;
             break;
-        case Rounding::cut:
-            k.cuts = true;
-            k.cut_low = operands_are_codes ? 0.25 / k.scale : -error;
-            k.cut_high = operands_are_codes ? 0.25 / k.scale : error;
+        case Rounding::truncated:
+            k.truncates = true;
+            k.truncation_low = operands_are_codes ? 0.25 / k.scale : -error;
+            k.truncation_high = operands_are_codes ? 0.25 / k.scale : error;
             break;
     }
     return k;
@@ -78,28 +78,28 @@ Keeper keeper(Storage storage, Rounding rounding, bool operands_are_codes) {
 
 // The rounding of a shader's result when it is stored: once. If the result was divided by its alpha, stored, and
 // multiplied by it again, colour and alpha are each off by up to half a code, and their product by up to one code.
-Keeper storing(const End& result, bool is_divided) {
-    Keeper k = keeper(result.storage, result.rounding, false);
+StorageRounding storing(const End& result, bool is_divided) {
+    StorageRounding k = keeper(result.storage, result.rounding, false);
     if (is_divided) {
         constexpr double of_product = 1 + 1.0 / 255;
         k.minus += of_product;
         k.plus += of_product;
-        k.cut_low -= of_product;
-        k.cut_high += of_product;
+        k.truncation_low -= of_product;
+        k.truncation_high += of_product;
         k.relative *= 4;
         return k;
     }
-    const bool is_known = result.rounding == Rounding::nearest || result.rounding == Rounding::cut;
+    const bool is_known = result.rounding == Rounding::nearest || result.rounding == Rounding::truncated;
     if (result.storage != Storage::half || !is_known) return k;
-    k.half = result.rounding == Rounding::cut ? Keeper::Half::cut : Keeper::Half::nearest;
+    k.half = result.rounding == Rounding::truncated ? StorageRounding::Half::truncated : StorageRounding::Half::nearest;
     k.relative = single_error;
     return k;
 }
 
 // The rounding of a colour that is converted to a code: ties go up, or in either direction.
-Keeper conversion(Storage storage, Source source) {
+StorageRounding conversion(Storage storage, Source source) {
     if (source == Source::any) return keeper(storage, Rounding::any, false);
-    if (source == Source::premultiplied_cut) return keeper(storage, Rounding::cut, false);
+    if (source == Source::premultiplied_truncated) return keeper(storage, Rounding::truncated, false);
     const bool goes_up = source == Source::stored || source == Source::premultiplied;
     return keeper(storage, Rounding::nearest, goes_up);
 }
@@ -110,9 +110,10 @@ Interval clamped(Interval x) noexcept {
 
 // The value of the code to which `exact` is rounded, ties up, as for Source::stored. The interval is a single code if
 // both of its ends round to that code.
-Interval stored_up(const Keeper& keeper, Interval exact) noexcept {
+Interval stored_up(const StorageRounding& keeper, Interval exact) noexcept {
     const auto code = [&](double v) {
-        return std::min(std::max(Keeper::floor_of(v * keeper.scale + 0.5), 0.0), keeper.scale) * keeper.inverse;
+        return std::min(std::max(StorageRounding::floor_of(v * keeper.scale + 0.5), 0.0), keeper.scale) *
+               keeper.inverse;
     };
     return {code(exact.low), code(exact.high)};
 }
@@ -127,7 +128,7 @@ Interval decoded(Interval encoded) noexcept {
 }
 
 // sRGB targets round the encoded colour to a code; float targets store linear values.
-Interval kept_by(const Keeper& keeper, Interval exact, double magnitude, bool is_linear) noexcept {
+Interval kept_by(const StorageRounding& keeper, Interval exact, double magnitude, bool is_linear) noexcept {
     if (!is_linear || !keeper.has_codes) return keeper.kept(exact, magnitude);
     return decoded(keeper.kept(encoded(exact), magnitude));
 }
@@ -143,7 +144,8 @@ Compositor::Means Compositor::means_of(const End& end, double slack) {
     // truncation rounds in the opposite direction.
     const bool has_three = end.source == Source::stored || end.source == Source::stored_either_way;
     m.under = keeper(end.storage, end.rounding, has_stored_source(end.source) && !has_three);
-    if (m.weight.cuts) m.weight = keeper(end.storage, Rounding::nearest, false), m.weight.minus = m.weight.plus = 1;
+    if (m.weight.truncates)
+        m.weight = keeper(end.storage, Rounding::nearest, false), m.weight.minus = m.weight.plus = 1;
     return m;
 }
 
@@ -175,7 +177,7 @@ Compositor::Operand Compositor::operand(const Means& means, const Layer& layer, 
     o.alpha = clamped(stored(alpha));
     o.color[3] = Interval::of(1);
     o.is_premultiplied = source == Source::premultiplied || source == Source::premultiplied_either_way ||
-                         source == Source::premultiplied_cut;
+                         source == Source::premultiplied_truncated;
     for (std::size_t c = 0; c < 3; ++c) {
         const Interval color = given(layer.color[c]);
         if (!o.is_premultiplied) {
@@ -200,8 +202,8 @@ Compositor::Channels Compositor::under(const Means& means, std::span<const Layer
     const bool is_linear = stack.is_linear;
     const Mixing& mixing = stack.mixing;
     const bool has_few_bits = mixing.color_bits > 0;
-    const Keeper color = has_few_bits ? few_bits(mixing.color_bits, means.end.rounding) : means.under;
-    const Keeper weight = has_few_bits ? few_bits(mixing.weight_bits, means.end.rounding) : means.weight;
+    const StorageRounding color = has_few_bits ? few_bits(mixing.color_bits, means.end.rounding) : means.under;
+    const StorageRounding weight = has_few_bits ? few_bits(mixing.weight_bits, means.end.rounding) : means.weight;
     Channels sum{Interval{}, Interval{}, Interval{}, Interval::of(mixing.first_through)};
     if (mixing.first_through != 1) {
         const Interval kept = means.weight.kept(sum[3], 1);  // rounded if it is a clear value, not if it is a factor
@@ -278,7 +280,7 @@ Compositor::Channels Compositor::background_of(const Means& means, const Stack& 
         else
             channels[c] = means.source.kept(clamped(x), 1);
         // A clear value is rounded, a picture is truncated.
-        if (source == Source::premultiplied_cut && means.blend.has_codes)
+        if (source == Source::premultiplied_truncated && means.blend.has_codes)
             channels[c].high = std::max(channels[c].high,
                                         stored_up(keeper(means.end.storage, Rounding::nearest, true), clamped(x)).high);
     }
@@ -314,7 +316,7 @@ bool Compositor::can_mix(const Stack& stack) const noexcept {
     return has_front(hypothesis_.order) || (mixing == Mixing{} && stack.mixing.through != Mixing::Through::summed);
 }
 
-Reach Compositor::reach(const Stack& stack) const noexcept {
+ReachableColor Compositor::reach(const Stack& stack) const noexcept {
     const Order order = hypothesis_.order;
     if (!can_mix(stack)) {
         constexpr Interval none{1, 0};
@@ -338,7 +340,7 @@ Reach Compositor::reach(const Stack& stack) const noexcept {
     // time.
     const auto read = [&](Interval through) { return result_.has_codes ? through : through.widened(0x1p-23); };
     const bool converts = converts_ || stack.finish != Finish::as_is;
-    Reach reach;
+    ReachableColor reach;
     if (is_apart) {
         const Interval through = read(clamped(rest_of(back[3])));
         if (!has_front(order)) reach.sums = sums_of(stack, back, through, behind);

@@ -85,39 +85,41 @@ struct Sums {
 };
 
 // The possible red, green, blue and alpha of the finished pixel, as values (not codes) in the result's storage.
-struct Reach {
+struct ReachableColor {
     std::array<Interval, 4> channels{};
     Sums sums{};
     [[nodiscard]] Interval& operator[](std::size_t c) noexcept { return channels[c]; }
     [[nodiscard]] const Interval& operator[](std::size_t c) const noexcept { return channels[c]; }
-    friend bool operator==(const Reach&, const Reach&) = default;
+    friend bool operator==(const ReachableColor&, const ReachableColor&) = default;
 };
 // True if the pixel can have this colour; alpha is not compared.
-[[nodiscard]] bool holds(const Reach& reach, const std::array<double, 4>& value) noexcept;
+[[nodiscard]] bool holds(const ReachableColor& reach, const std::array<double, 4>& value) noexcept;
 
 // The rounding of a value that is stored, as numbers derived once from a hypothesis.
-struct Keeper {
+struct StorageRounding {
     bool has_codes = true;  // false: a float
     double scale = 255, inverse = 1.0 / 255;
     double minus = 0, plus = 0;  // codes: largest distance of the stored value below and above the exact result
     bool snaps = true;           // false: values between codes are possible
-    double cut_low = 0, cut_high = 0;
-    bool cuts = false;               // truncates to whole codes after adding cut_low or cut_high
+    double truncation_low = 0, truncation_high = 0;
+    bool truncates = false;          // truncates to whole codes after adding cut_low or cut_high
     double relative = 0, least = 0;  // floats
-    enum class Half : std::uint8_t { none, nearest, cut };
+    enum class Half : std::uint8_t { none, nearest, truncated };
     Half half = Half::none;  // for binary16: the value, after the errors above, is rounded to nearest or truncated.
 
     [[nodiscard]] Interval kept(Interval exact, double magnitude) const noexcept {
         if (!has_codes && half != Half::none) {
-            const auto rounded = [&](double v) { return half == Half::cut ? cut_half(v) : nearest_half(v); };
+            const auto rounded = [&](double v) {
+                return half == Half::truncated ? truncated_half(v) : nearest_half(v);
+            };
             const Interval off = exact.widened(magnitude * relative);
             return Interval{rounded(off.low), rounded(off.high)}.widened(least);
         }
         if (!has_codes) return exact.widened(magnitude * relative + least);
         double low = below(exact.low * scale), high = above(exact.high * scale);
-        if (cuts) {
-            low = floor_of(low + cut_low);
-            high = floor_of(high + cut_high);
+        if (truncates) {
+            low = floor_of(low + truncation_low);
+            high = floor_of(high + truncation_high);
         } else {
             low -= minus;
             high += plus;
@@ -140,7 +142,7 @@ struct Keeper {
         const double far = (0x1p42 + 1) * x;
         return far - (far - x);
     }
-    [[nodiscard]] static double cut_half(double x) noexcept {
+    [[nodiscard]] static double truncated_half(double x) noexcept {
         const double near = nearest_half(x);
         return std::fabs(near) > std::fabs(x) ? nearest_half(near * (1 - 0x1p-11)) : near;
     }
@@ -153,14 +155,14 @@ struct Keeper {
 class Compositor {
   public:
     Compositor(const Hypothesis& hypothesis);
-    [[nodiscard]] Reach reach(const Stack& stack) const noexcept;
+    [[nodiscard]] ReachableColor reach(const Stack& stack) const noexcept;
     [[nodiscard]] const Hypothesis& hypothesis() const noexcept { return hypothesis_; }
 
   private:
     // The rounding at one end: of its sources, and of the stored result of a blend.
     struct Means {
         End end{};
-        Keeper source{}, blend{}, under{}, weight{};  // weight: of the transmittance
+        StorageRounding source{}, blend{}, under{}, weight{};  // weight: of the transmittance
         double slack = 0;
     };
     struct Operand {
@@ -186,7 +188,7 @@ class Compositor {
 
     Hypothesis hypothesis_;
     Means front_, back_;
-    Keeper result_;
+    StorageRounding result_;
     bool converts_ = false;  // the result of `over` still has to be converted to the result's storage
 };
 

@@ -13,7 +13,7 @@ namespace {
 using Rules = std::vector<Rule>;
 
 const Hypothesis& hypothesis_of(const Verdict& verdict) {
-    const Checked& account = verdict.explanations.empty() ? verdict.right : verdict.explanations[0];
+    const CheckedAccount& account = verdict.explanations.empty() ? verdict.right : verdict.explanations[0];
     return account.account.hypothesis;
 }
 
@@ -27,12 +27,12 @@ std::vector<Rules> told(const Verdict& verdict) {
 
 bool is_right_at(const Compositor& compositor, const PixelList& list, const std::array<double, 4>& value,
                  StackMaker& maker) {
-    return ties_that_hold(compositor, {}, list, value, maker).mask != 0;
+    return matching_ties(compositor, {}, list, value, maker).mask != 0;
 }
 
 bool explains(const Compositor& compositor, const Rules& rules, const PixelList& list,
               const std::array<double, 4>& value, StackMaker& maker) {
-    return ties_that_hold(compositor, rules, list, value, maker).mask != 0;
+    return matching_ties(compositor, rules, list, value, maker).mask != 0;
 }
 
 }  // namespace
@@ -118,7 +118,7 @@ class Chooser {
         for (const std::size_t i : chosen) stack.layers.push_back(right_.layers[i]);
         stack.near = (chosen.size() + 1) / 2;
         stack.near_without_middle = chosen.size() / 2;
-        const Reach reach = compositor_.reach(stack);
+        const ReachableColor reach = compositor_.reach(stack);
         if (!holds(reach, value_)) return std::nullopt;
         return PixelEdit{.chosen = chosen, .reach = reach};
     }
@@ -131,7 +131,7 @@ class Chooser {
 // The rules of explanations and leads first, then every rule.
 std::vector<Rules> all_rules(const Verdict& verdict) {
     std::vector<Rules> all;
-    for (const Checked& c : verdict.explanations) all.push_back(c.account.rules);
+    for (const CheckedAccount& c : verdict.explanations) all.push_back(c.account.rules);
     for (const Lead& lead : verdict.leads) all.push_back(lead.rules);
     for (const Rule& rule : rules_for(verdict.facts)) all.push_back({rule});
     return all;
@@ -158,7 +158,7 @@ PixelEdits edits_at(const SceneFragments& scene, const Colors& candidate, const 
     for (const bool at_edge : {false, true})
         for (const Rules& rules : all_rules(verdict)) {
             if (found.edits.size() == most_edits || (at_edge && !found.edits.empty())) break;
-            const TiesFound way = ties_that_hold(compositor, rules, list, found.pixel.value, maker);
+            const MatchingTies way = matching_ties(compositor, rules, list, found.pixel.value, maker);
             if (way.mask == 0 || way.at_edge != at_edge) continue;
             const Stack& stack = maker.with(rules, way.list, way.ties, way.is_moved);
             if (std::ranges::find(seen, stack) != seen.end()) continue;

@@ -31,12 +31,12 @@ struct PixelEdit {
     std::vector<Rule> rules{};  // empty: no rule fits
     // If no rule fits: indices of the visible layers that are composited, near to far.
     std::vector<std::size_t> chosen{};
-    Reach reach{};
+    ReachableColor reach{};
 };
 struct PixelEdits {
     SampledPixel pixel{};
     Hypothesis hypothesis{};
-    Reach right{};
+    ReachableColor right{};
     bool is_right = false;          // alpha, too
     std::optional<double> alpha{};  // the candidate's, where the verdict tells something of alpha
     bool has_wrong_alpha = false;

@@ -20,7 +20,7 @@ std::string reach_text(const Interval& channel) {
     return low == high ? low : low + " to " + high;
 }
 
-std::string reach_text(const Reach& reach) {
+std::string reach_text(const ReachableColor& reach) {
     return reach_text(reach[0]) + ", " + reach_text(reach[1]) + ", " + reach_text(reach[2]);
 }
 
@@ -40,8 +40,8 @@ std::string numbers(const std::vector<std::size_t>& chosen) {
     return text;
 }
 
-std::string sentence_of(const PixelEdit& edit, const Verdict& v, const pipeline::DrawList& list) {
-    if (!edit.rules.empty()) return sentence(edit.rules, v.facts, list);
+std::string description_of(const PixelEdit& edit, const Verdict& v, const pipeline::DrawList& list) {
+    if (!edit.rules.empty()) return description(edit.rules, v.facts, list);
     return "of its layers these alone are composited, near to far: " + numbers(edit.chosen);
 }
 
@@ -63,13 +63,13 @@ std::string to_text(const PixelEdits& p, const Verdict& v, const pipeline::DrawL
                     pixel.has_opaque ? "an opaque surface" : "the background"));
     if (pixel.edge != nullptr) add("at an edge: another rasterizer may cover it otherwise");
     for (const PixelEdit& edit : p.edits)
-        add(fmt::format("it comes out so if {} ({})", sentence_of(edit, v, list), reach_text(edit.reach)));
+        add(fmt::format("it comes out so if {} ({})", description_of(edit, v, list), reach_text(edit.reach)));
     if (!p.is_right && !p.has_wrong_alpha && p.edits.empty()) add("no mistake that is known here gives its value");
     return text;
 }
 
 std::string to_json(const PixelEdits& p, const Verdict& v, const pipeline::DrawList& list) {
-    const auto reach_json = [](const Reach& reach) {
+    const auto reach_json = [](const ReachableColor& reach) {
         ordered_json all = ordered_json::array();
         for (std::size_t c = 0; c < 3; ++c) all.push_back({reach[c].low, reach[c].high});
         return all;
@@ -95,7 +95,7 @@ std::string to_json(const PixelEdits& p, const Verdict& v, const pipeline::DrawL
     for (const Fragment& f : pixel.visible) document["layers"].push_back(fragment_json(f));
     for (const Fragment& f : pixel.hidden) document["hidden"].push_back(fragment_json(f));
     for (const PixelEdit& edit : p.edits) {
-        ordered_json one{{"sentence", sentence_of(edit, v, list)},
+        ordered_json one{{"sentence", description_of(edit, v, list)},
                          {"kinds", ordered_json::array()},
                          {"value", reach_json(edit.reach)}};
         for (const Rule& rule : edit.rules) one["kinds"].push_back(name(rule.kind));

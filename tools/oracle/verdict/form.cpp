@@ -7,7 +7,7 @@
 
 namespace strata::oracle::verdict {
 
-std::string Formed::sentence() const {
+std::string Formed::description() const {
     if (!is_chosen) return "";
     return use.is_divided
                ? "  colours are taken for straight and multiplied by their alpha: fewer pixels are wrong so\n"
@@ -22,12 +22,12 @@ std::size_t wrong_of(const SceneFragments& scene, const Formed& formed) {
     const Colors colors = formed.colors();
     const Families all = families(storage_of(colors.code()), {0, 0x1p-20}, Looseness::definite, formed.use.is_divided);
     const Sample sample = sampled(scene, colors, most).with_few_structures(most_structures);
-    const auto closest = best_of(all, {}, sample, Wrong::some);
+    const auto closest = best_of(all, {}, sample, WrongPixels::some);
     if (!closest) return sample.pixels().size();
     const Compositor compositor{*closest};
     StackMaker maker{scene.setting()};
     return static_cast<std::size_t>(std::ranges::count_if(sample.pixels(), [&](const SampledPixel& pixel) {
-        return ties_that_hold(compositor, {}, pixel.list, pixel.value, maker).mask == 0;
+        return matching_ties(compositor, {}, pixel.list, pixel.value, maker).mask == 0;
     }));
 }
 

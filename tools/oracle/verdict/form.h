@@ -17,7 +17,7 @@ struct Formed {
     ChannelUse use{};
     bool is_chosen = false;  // alpha makes a difference, and no option states the form
     [[nodiscard]] Colors colors() const { return Colors{target, use}; }
-    [[nodiscard]] std::string sentence() const;  // "" if the form was not chosen
+    [[nodiscard]] std::string description() const;  // "" if the form was not chosen
 };
 
 // `is_stated`: an option states the target's form; no other form is tried.

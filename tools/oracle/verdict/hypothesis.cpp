@@ -47,7 +47,7 @@ namespace {
 std::string_view words(Rounding rounding) noexcept {
     switch (rounding) {
         case Rounding::nearest: return "rounded to nearest";
-        case Rounding::cut: return "cut";
+        case Rounding::truncated: return "cut";
         case Rounding::products: return "each product rounded";
         case Rounding::held: return "rounded to nearest or kept in binary32 for a pass";
         case Rounding::any: return "rounded within one code";
@@ -61,7 +61,7 @@ std::string_view words(Source source) noexcept {
         case Source::stored_either_way: return "";
         case Source::premultiplied:
         case Source::premultiplied_either_way: return ", premultiplied layers";
-        case Source::premultiplied_cut: return ", premultiplied layers that are cut";
+        case Source::premultiplied_truncated: return ", premultiplied layers that are cut";
         case Source::unrounded: return ", sources not rounded";
         case Source::any: return ", sources rounded or not";
     }
@@ -85,10 +85,10 @@ std::vector<End> ends(Storage storage) {
             {storage, premultiplied, R::nearest},
             {storage, premultiplied_either_way, R::nearest},
             {storage, unrounded, R::nearest},
-            {storage, stored, R::cut},
-            {storage, premultiplied_either_way, R::cut},
-            {storage, unrounded, R::cut},
-            {storage, premultiplied_cut, R::cut},
+            {storage, stored, R::truncated},
+            {storage, premultiplied_either_way, R::truncated},
+            {storage, unrounded, R::truncated},
+            {storage, premultiplied_truncated, R::truncated},
             {storage, stored_either_way, R::products},
             {storage, premultiplied_either_way, R::products},
             {storage, unrounded, R::held},
@@ -105,10 +105,10 @@ std::vector<End> ends_of_pairs(Storage storage) {
             {storage, premultiplied, R::nearest},
             {storage, premultiplied_either_way, R::nearest},
             {storage, unrounded, R::nearest},
-            {storage, unrounded, R::cut},
-            {storage, stored, R::cut},
-            {storage, premultiplied_either_way, R::cut},
-            {storage, premultiplied_cut, R::cut},
+            {storage, unrounded, R::truncated},
+            {storage, stored, R::truncated},
+            {storage, premultiplied_either_way, R::truncated},
+            {storage, premultiplied_truncated, R::truncated},
             {storage, stored_either_way, R::products},
             {storage, premultiplied_either_way, R::products}};
 }
@@ -126,7 +126,7 @@ std::string describe(const Hypothesis& h) {
     text = fmt::format("accumulators {}, {}", text, name(h.order));
     const bool converts = h.result.storage != (has_front(h.order) ? h.front.storage : h.back.storage);
     if (converts) text += fmt::format(", stored in {}", name(h.result.storage));
-    if (h.result.rounding == Rounding::cut) text += ", cut";
+    if (h.result.rounding == Rounding::truncated) text += ", cut";
     if (h.is_divided) text += ", divided by alpha";
     if (h.slack > 0) text += fmt::format(", colours within {:.3g} of a code of 255", h.slack * 255);
     return text;
@@ -189,7 +189,7 @@ class FamilyMaker {
         const bool may_cut = has_codes(result_) || (result_ == Storage::half && front.storage == Storage::single);
         if (!may_cut || has_codes(front.storage)) return;
         family.members.push_back(family.members.back());
-        family.members.back().result.rounding = Rounding::cut;
+        family.members.back().result.rounding = Rounding::truncated;
     }
 
     Storage result_;

@@ -32,18 +32,18 @@ enum class Source : std::uint8_t {
     stored_either_way,  // the same, with ties in either direction
     premultiplied,      // multiplied by alpha, then rounded like `stored`
     premultiplied_either_way,
-    premultiplied_cut,  // the same, truncated
-    unrounded,          // binary32, as Direct3D allows
-    any                 // any of the above
+    premultiplied_truncated,  // the same, truncated
+    unrounded,                // binary32, as Direct3D allows
+    any                       // any of the above
 };
 
 // The rounding of a blend's exact result. Floats have only `nearest` and `any`, which includes truncation.
 enum class Rounding : std::uint8_t {
     nearest,
-    cut,       // truncated
-    products,  // each product is rounded, then added: twice half a code
-    held,      // to nearest, or kept in binary32 until the end of the pass
-    any        // an error of up to one code in either direction
+    truncated,  // truncated
+    products,   // each product is rounded, then added: twice half a code
+    held,       // to nearest, or kept in binary32 until the end of the pass
+    any         // an error of up to one code in either direction
 };
 
 struct End {

@@ -1,8 +1,8 @@
 // tools/oracle/verdict/leads.cpp - finds rules that explain some of the wrong pixels (search.h).
 #include <algorithm>
 
-#include "tools/oracle/verdict/parted.h"
 #include "tools/oracle/verdict/search.h"
+#include "tools/oracle/verdict/split_sample.h"
 
 namespace strata::oracle::verdict {
 
@@ -10,11 +10,11 @@ namespace {
 
 // Which of the pixels have a value that the rules reach; `unchanged` is the result for pixels that the rules do not
 // change. Empty if that exceeds the share of work of one rule.
-std::vector<bool> reached(std::span<const PartedPixel* const> pixels, const Rules& rules, const Compositor& compositor,
+std::vector<bool> reached(std::span<const SplitPixel* const> pixels, const Rules& rules, const Compositor& compositor,
                           const Setting& setting, bool unchanged) {
     StackMaker maker{setting, setting.work->share()};
     std::vector<bool> are_reached;
-    for (const PartedPixel* pixel : pixels) {
+    for (const SplitPixel* pixel : pixels) {
         if (maker.steps().is_over()) return {};
         const StackedPixel made = stacked(rules, *pixel->sampled, maker);
         are_reached.push_back(is_unchanged(made, *pixel) ? unchanged
@@ -25,7 +25,7 @@ std::vector<bool> reached(std::span<const PartedPixel* const> pixels, const Rule
 
 // Selects leads greedily: each explains the most pixels that the leads before it do not, minus a quarter of the right
 // pixels that contradict it.
-std::vector<Lead> leads_of(const std::vector<Rules>& all, const Parted& parts, const Hypothesis& hypothesis,
+std::vector<Lead> leads_of(const std::vector<Rules>& all, const SplitSample& parts, const Hypothesis& hypothesis,
                            const Setting& setting) {
     constexpr std::size_t most_leads = 6, most_looked_at = 1024;
     const Compositor compositor{hypothesis};
@@ -64,9 +64,9 @@ std::vector<Lead> leads_of(const std::vector<Rules>& all, const Parted& parts, c
 
 }  // namespace
 
-std::vector<Lead> leads(const SceneFragments& scene, const Checked& closest, const Sample& sample) {
+std::vector<Lead> leads(const SceneFragments& scene, const CheckedAccount& closest, const Sample& sample) {
     const Hypothesis& hypothesis = closest.account.hypothesis;
-    return leads_of(singles(rules_for(facts_of(scene, sample))), parted(sample, hypothesis), hypothesis,
+    return leads_of(singles(rules_for(facts_of(scene, sample))), split_by_account(sample, hypothesis), hypothesis,
                     scene.setting());
 }
 

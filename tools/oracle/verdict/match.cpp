@@ -20,15 +20,15 @@ bool may_have_ties(std::span<const Rule> rules, const PixelList& list) noexcept 
 
 namespace {
 
-TiesFound found_in(const Compositor& compositor, std::span<const Rule> rules, const PixelList& list,
-                   const std::array<double, 4>& value, bool is_moved, StackMaker& maker) {
+MatchingTies found_in(const Compositor& compositor, std::span<const Rule> rules, const PixelList& list,
+                      const std::array<double, 4>& value, bool is_moved, StackMaker& maker) {
     const auto is_held = [&](const Ties& ties) {
         const Stack& stack = maker.with(rules, list, ties, is_moved);
-        const Reach reach = compositor.reach(stack);
+        const ReachableColor reach = compositor.reach(stack);
         maker.steps().composite(stack.layers.size() + reach.sums.weights());
         return holds(reach, value);
     };
-    TiesFound found{.list = list, .is_moved = is_moved};
+    MatchingTies found{.list = list, .is_moved = is_moved};
     const auto add = [&](TieMask mask, const Ties& ties) {
         found.mask |= mask;
         found.ties = ties;
@@ -52,9 +52,9 @@ TiesFound found_in(const Compositor& compositor, std::span<const Rule> rules, co
 
 }  // namespace
 
-TiesFound ties_that_hold(const Compositor& compositor, std::span<const Rule> rules, const PixelList& list,
-                         const std::array<double, 4>& value, StackMaker& maker) {
-    TiesFound found = found_in(compositor, rules, list, value, false, maker);
+MatchingTies matching_ties(const Compositor& compositor, std::span<const Rule> rules, const PixelList& list,
+                           const std::array<double, 4>& value, StackMaker& maker) {
+    MatchingTies found = found_in(compositor, rules, list, value, false, maker);
     const auto try_others = [&](bool is_moved) {
         if (list.edge == nullptr) return;
         for (const OtherList& other : list.edge->others) {
@@ -122,7 +122,7 @@ StackedPixel stacked(std::span<const Rule> rules, const SampledPixel& pixel, Sta
 
 const Stack* reaching(const Compositor& compositor, const StackedPixel& pixel, Steps& steps) {
     for (const Stack& stack : pixel.stacks) {
-        const Reach reach = compositor.reach(stack);
+        const ReachableColor reach = compositor.reach(stack);
         steps.composite(stack.layers.size() + reach.sums.weights());
         if (holds(reach, pixel.value)) return &stack;
     }
@@ -196,8 +196,8 @@ std::vector<WeightedPixel> weighted(std::span<const Rule> rules, const Sample& s
 }
 
 // Stops when the cost exceeds `most_bits`, or at the first wrong pixel if none is allowed.
-Cost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pixels, Wrong allowed, double most_bits,
-             Steps& steps) {
+Cost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pixels, WrongPixels allowed,
+             double most_bits, Steps& steps) {
     const Compositor compositor{hypothesis};
     const Pricing pricing{hypothesis.result.storage};
     Cost cost{.bits = bits_of(hypothesis)};
@@ -212,7 +212,7 @@ Cost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pi
             cost.is_as_given = cost.is_as_given && as_given;
             cost.bits += weight * (pricing.of(compositor.reach(*stack)) + (as_given ? 0 : Pricing::of_edge));
         }
-        if (cost.wrong > 0 && allowed == Wrong::none) break;
+        if (cost.wrong > 0 && allowed == WrongPixels::none) break;
         if (cost.total(pricing) > most_bits) break;
     }
     return cost;
@@ -220,26 +220,26 @@ Cost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pi
 
 // A lower bound for the cost of all members of a family: the cost of the pixels that their widest hypothesis does not
 // reach.
-double least_of(const HypothesisFamily& family, std::vector<const WeightedPixel*>& pixels, Wrong allowed, double most,
-                Steps& steps) {
+double least_of(const HypothesisFamily& family, std::vector<const WeightedPixel*>& pixels, WrongPixels allowed,
+                double most, Steps& steps) {
     Cost cost = cost_of(family.widest, pixels, allowed, std::numeric_limits<double>::max(), steps);
-    if (allowed == Wrong::none && cost.wrong > 0) return most;
+    if (allowed == WrongPixels::none && cost.wrong > 0) return most;
     cost.bits = 0;
     return cost.total(Pricing{family.widest.result.storage});
 }
 
 }  // namespace
 
-std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rules, const Sample& sample, Wrong allowed,
-                                  const std::optional<Hypothesis>& likely) {
+std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rules, const Sample& sample,
+                                  WrongPixels allowed, const std::optional<Hypothesis>& likely) {
     Steps steps{*sample.setting().work};
-    if (allowed == Wrong::none && steps.is_spent()) return std::nullopt;
+    if (allowed == WrongPixels::none && steps.is_spent()) return std::nullopt;
     const std::vector<WeightedPixel> made = weighted(rules, sample);
     std::vector<const WeightedPixel*> pixels;
     for (const WeightedPixel& pixel : made) pixels.push_back(&pixel);
     constexpr double any_bits = std::numeric_limits<double>::max();
     if (likely)
-        if (const Cost cost = cost_of(*likely, pixels, Wrong::none, any_bits, steps);
+        if (const Cost cost = cost_of(*likely, pixels, WrongPixels::none, any_bits, steps);
             cost.wrong == 0 && cost.is_as_given)
             return likely;
     // Returns the first hypothesis with a cost below `most` that is_enough, or the one with the least cost.
@@ -247,12 +247,12 @@ std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rul
         double best = most;
         std::optional<Hypothesis> found;
         for (const HypothesisFamily& family : all) {
-            if (allowed == Wrong::none && steps.is_spent()) break;
+            if (allowed == WrongPixels::none && steps.is_spent()) break;
             if (least_of(family, pixels, allowed, best, steps) >= best) continue;
             for (const Hypothesis& h : family.members) {
                 const Cost cost = cost_of(h, pixels, allowed, best, steps);
                 const double bits = cost.total(Pricing{h.result.storage});
-                if (bits >= best || (allowed == Wrong::none && cost.wrong > 0)) continue;
+                if (bits >= best || (allowed == WrongPixels::none && cost.wrong > 0)) continue;
                 best = bits;
                 found = h;
                 if (is_enough(bits)) return std::pair{found, best};
@@ -261,7 +261,7 @@ std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rul
         return std::pair{found, best};
     };
     const auto [least, bits] = choose(any_bits, [](double) { return false; });
-    if (!least || allowed == Wrong::some) return least;
+    if (!least || allowed == WrongPixels::some) return least;
     // Of those with nearly equal costs the simplest is chosen: families and their members are in that order.
     return choose(1.1 * bits + 64, [](double) { return true; }).first;
 }

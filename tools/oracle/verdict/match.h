@@ -16,7 +16,7 @@ namespace strata::oracle::verdict {
 
 using TieMask = std::uint32_t;  // bit n: ties_number(n) holds; bit ties_count: TieRule::other holds
 inline constexpr TieMask all_ties = (2u << ties_count) - 1;
-struct TiesFound {
+struct MatchingTies {
     TieMask mask = 0;
     Ties ties{};            // the first rule that holds
     PixelList list{};       // the fragments that were used: at an edge possibly not the given ones
@@ -25,13 +25,13 @@ struct TiesFound {
 };
 
 // The rules for ties under which the pixel has the candidate's value; all rules if it has no ties.
-[[nodiscard]] TiesFound ties_that_hold(const Compositor& compositor, std::span<const Rule> rules, const PixelList& list,
-                                       const std::array<double, 4>& value, StackMaker& maker);
+[[nodiscard]] MatchingTies matching_ties(const Compositor& compositor, std::span<const Rule> rules,
+                                         const PixelList& list, const std::array<double, 4>& value, StackMaker& maker);
 
 // The structures that a sampled pixel may have: one per rule for ties with a different result there.
 struct StackedPixel {
     std::vector<Stack> stacks{};
-    std::size_t given = 0;          // number of structures with the given coverage; the others need TiesFound::at_edge
+    std::size_t given = 0;  // number of structures with the given coverage; the others need MatchingTies::at_edge
     std::array<double, 4> value{};  // the candidate's
 };
 [[nodiscard]] StackedPixel stacked(std::span<const Rule> rules, const SampledPixel& pixel, StackMaker& maker);
@@ -41,24 +41,24 @@ struct StackedPixel {
 
 // The hypothesis that describes the sample in the fewest bits (pricing.h); with Wrong::none it must hold for every
 // pixel.
-enum class Wrong : std::uint8_t { some, none };
+enum class WrongPixels : std::uint8_t { some, none };
 [[nodiscard]] std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rules, const Sample& sample,
-                                                Wrong allowed, const std::optional<Hypothesis>& likely = {});
+                                                WrongPixels allowed, const std::optional<Hypothesis>& likely = {});
 
 // The hypotheses whose intervals for the right structure of the sample are clearly narrower than those of `wide`.
 [[nodiscard]] Families narrower(const Families& all, const Hypothesis& wide, const Sample& sample);
 
 // Checks an account against the whole picture. `examples` receives some of the pixels that are wrong or need another
 // rasterizer. With Wrong::none the check stops soon after the account has failed.
-[[nodiscard]] Checked check_all(const SceneFragments& scene, const Colors& candidate, const Account& account,
-                                Wrong allowed, Sample& examples);
+[[nodiscard]] CheckedAccount check_all(const SceneFragments& scene, const Colors& candidate, const Account& account,
+                                       WrongPixels allowed, Sample& examples);
 
 // The best account of the whole picture with these rules, if one holds for every pixel. `likely` is tried first. Pixels
 // that contradict an account are added to the sample; after `most_rejected` hypotheses that are contradicted the rules
 // are given up.
-[[nodiscard]] std::optional<Checked> account_for(const Families& all, const std::vector<Rule>& rules,
-                                                 const SceneFragments& scene, const Colors& candidate, Sample& sample,
-                                                 const std::optional<Hypothesis>& likely = {},
-                                                 int most_rejected = std::numeric_limits<int>::max());
+[[nodiscard]] std::optional<CheckedAccount> account_for(const Families& all, const std::vector<Rule>& rules,
+                                                        const SceneFragments& scene, const Colors& candidate,
+                                                        Sample& sample, const std::optional<Hypothesis>& likely = {},
+                                                        int most_rejected = std::numeric_limits<int>::max());
 
 }  // namespace strata::oracle::verdict

@@ -19,7 +19,7 @@ namespace strata::oracle::verdict {
 class Pricing {
   public:
     explicit Pricing(Storage storage) : storage_{storage} {}
-    [[nodiscard]] double of(const Reach& reach) const noexcept {
+    [[nodiscard]] double of(const ReachableColor& reach) const noexcept {
         double values = 1;  // number of values of the three channels
         for (std::size_t c = 0; c < 3; ++c) values *= 1 + (reach[c].high - reach[c].low) / step(reach[c].magnitude());
         if (reach.sums.front_unit > 0) values = std::min(values, sums_of(reach.sums));

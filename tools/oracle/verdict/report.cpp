@@ -14,7 +14,7 @@ using nlohmann::ordered_json;
 
 std::string pixels(std::uint64_t n) { return n == 1 ? "1 pixel" : fmt::format("{} pixels", n); }
 
-std::string rounding_of(const Checked& c) {
+std::string rounding_of(const CheckedAccount& c) {
     const bool is_in_codes = has_codes(c.account.hypothesis.result.storage);
     const auto number = [&](double n) { return is_in_codes ? fmt::format("{:.0f}", n) : fmt::format("{:.2g}", n); };
     if (c.possible == 0) return "no rounding is left open";
@@ -25,7 +25,7 @@ std::string rounding_of(const Checked& c) {
                        number(c.possible), is_in_codes && c.possible == 1 ? "is" : "are");
 }
 
-std::string ties_of(const Checked& c) {
+std::string ties_of(const CheckedAccount& c) {
     return fmt::format("at {} fragments lie at one depth: {}", pixels(c.tied),
                        c.has_one_tie_rule ? describe(c.ties) : "composited by no one rule");
 }
@@ -42,7 +42,7 @@ std::string first_line(const Verdict& v, const pipeline::DrawList& list) {
     if (v.explanations.empty())
         return fmt::format("wrong: {} of {} are beyond what a right port reaches, and no one mistake explains them all",
                            v.right.wrong_pixels.size(), pixels(v.right.pixels));
-    if (v.explanations.size() == 1) return "wrong: " + sentence(v.explanations[0].account.rules, v.facts, list);
+    if (v.explanations.size() == 1) return "wrong: " + description(v.explanations[0].account.rules, v.facts, list);
     return fmt::format("wrong: one of {} mistakes, which look the same here", v.explanations.size());
 }
 
@@ -52,7 +52,7 @@ const std::vector<std::uint32_t>& wrong_pixels(const Verdict& v) {
 }
 
 // The pixels at which a mistake is visible.
-std::string reach_of(const Checked& c, const Verdict& v) {
+std::string reach_of(const CheckedAccount& c, const Verdict& v) {
     const std::uint64_t decided = c.changed - c.undecided;
     std::string text = fmt::format("so at all {} that it changes", pixels(c.changed));
     if (c.undecided > 0) text += fmt::format(" ({} of them decide it)", decided);
@@ -62,7 +62,7 @@ std::string reach_of(const Checked& c, const Verdict& v) {
 std::string lead_of(const Lead& l, const Verdict& v, const pipeline::DrawList& list) {
     return fmt::format(
         "{} of {} wrong pixels that were looked at would come out so, and {} of {} right ones would not: {}",
-        l.explained, l.of, l.contradicted, l.right, sentence(l.rules, v.facts, list));
+        l.explained, l.of, l.contradicted, l.right, description(l.rules, v.facts, list));
 }
 
 }  // namespace
@@ -70,12 +70,12 @@ std::string lead_of(const Lead& l, const Verdict& v, const pipeline::DrawList& l
 std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
     std::string text = first_line(v, list) + '\n';
     const auto add = [&](const std::string& line) { text += "  " + line + '\n'; };
-    for (const Checked& c : v.explanations) {
-        if (v.explanations.size() > 1) add(sentence(c.account.rules, v.facts, list));
+    for (const CheckedAccount& c : v.explanations) {
+        if (v.explanations.size() > 1) add(description(c.account.rules, v.facts, list));
         add((v.explanations.size() > 1 ? "  " : "") + reach_of(c, v));
     }
-    if (!v.telling.empty()) add("this tells them apart: " + v.telling);
-    const Checked& account = v.explanations.empty() ? v.right : v.explanations[0];
+    if (!v.distinguishing_command.empty()) add("this tells them apart: " + v.distinguishing_command);
+    const CheckedAccount& account = v.explanations.empty() ? v.right : v.explanations[0];
     add((v.right.is_whole() || !v.explanations.empty() ? "" : "closest: ") + describe(account.account.hypothesis));
     if (!v.is_right && !v.explanations.empty()) add(rounding_of(account));
     if (account.tied > 0) add(ties_of(account));
@@ -102,7 +102,7 @@ namespace {
 ordered_json json_of(const Rule& rule, const Verdict& v, const pipeline::DrawList& list) {
     ordered_json json{{"kind", name(rule.kind)}, {"n", rule.n}};
     if (rule.value != 0) json["value"] = rule.value;
-    json["sentence"] = sentence(rule, v.facts, list);
+    json["sentence"] = description(rule, v.facts, list);
     return json;
 }
 
@@ -113,7 +113,7 @@ ordered_json json_of(const AlphaChecked& alpha) {
     return json;
 }
 
-ordered_json json_of(const Checked& c, const Verdict& v, const pipeline::DrawList& list) {
+ordered_json json_of(const CheckedAccount& c, const Verdict& v, const pipeline::DrawList& list) {
     ordered_json json{{"mistakes", ordered_json::array()},
                       {"rounding",
                        {{"hypothesis", describe(c.account.hypothesis)},
@@ -142,7 +142,7 @@ std::string to_json(const Verdict& v, const pipeline::DrawList& list) {
                           {"right_structure", json_of(v.right, v, list)},
                           {"explanations", ordered_json::array()},
                           {"leads", ordered_json::array()}};
-    for (const Checked& c : v.explanations) document["explanations"].push_back(json_of(c, v, list));
+    for (const CheckedAccount& c : v.explanations) document["explanations"].push_back(json_of(c, v, list));
     for (const Lead& l : v.leads)
         document["leads"].push_back({{"mistake", json_of(l.rules[0], v, list)},
                                      {"explained", l.explained},
@@ -154,7 +154,7 @@ std::string to_json(const Verdict& v, const pipeline::DrawList& list) {
     for (const Rule& rule : v.alike) document["alike"].push_back(name(rule.kind));
     document["kinds"] = v.kinds;
     document["stopped"] = v.is_stopped;
-    if (!v.telling.empty()) document["telling"] = v.telling;
+    if (!v.distinguishing_command.empty()) document["telling"] = v.distinguishing_command;
     document["first_wrong"] = ordered_json::array();
     constexpr std::size_t most = 16;
     const auto width = static_cast<std::uint32_t>(v.width);

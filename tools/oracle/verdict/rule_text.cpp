@@ -72,24 +72,24 @@ std::string_view weights(std::uint32_t n) {
 
 }  // namespace
 
-std::string sentence(const std::vector<Rule>& rules, const SceneFacts& facts, const pipeline::DrawList& list) {
+std::string description(const std::vector<Rule>& rules, const SceneFacts& facts, const pipeline::DrawList& list) {
     std::string text;
-    for (const Rule& rule : rules) text += (text.empty() ? "" : "; and ") + sentence(rule, facts, list);
+    for (const Rule& rule : rules) text += (text.empty() ? "" : "; and ") + description(rule, facts, list);
     return text;
 }
 
-std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::DrawList& list) {
+std::string description(const Rule& rule, const SceneFacts& facts, const pipeline::DrawList& list) {
     if (!rule.region.is_everywhere()) {
         Rule everywhere = rule;
         everywhere.region = {};
         const Region& r = rule.region;
         return fmt::format("within x {} to {} and y {} to {}: {}", r.x0, r.x1 - 1, r.y0, r.y1 - 1,
-                           sentence(everywhere, facts, list));
+                           description(everywhere, facts, list));
     }
     if (rule.scope != Scope::all && rule.kind != RuleKind::some_lost && rule.kind != RuleKind::some_doubled) {
         Rule of_all = rule;
         of_all.scope = Scope::all;
-        return fmt::format("of {} {}", some(rule, list), sentence(of_all, facts, list));
+        return fmt::format("of {} {}", some(rule, list), description(of_all, facts, list));
     }
     const std::uint32_t n = rule.n;
     const auto of = [&] { return fmt::format("of up to {}", facts.most_layers); };

@@ -37,8 +37,8 @@ struct SceneFacts {
 [[nodiscard]] int stage_of(RuleKind kind) noexcept;
 
 // Describes a port with this mistake: "only the nearest 3 layers of up to 6 are composited".
-[[nodiscard]] std::string sentence(const Rule& rule, const SceneFacts& facts, const pipeline::DrawList& list);
-[[nodiscard]] std::string sentence(const std::vector<Rule>& rules, const SceneFacts& facts,
-                                   const pipeline::DrawList& list);
+[[nodiscard]] std::string description(const Rule& rule, const SceneFacts& facts, const pipeline::DrawList& list);
+[[nodiscard]] std::string description(const std::vector<Rule>& rules, const SceneFacts& facts,
+                                      const pipeline::DrawList& list);
 
 }  // namespace strata::oracle::verdict

@@ -4,24 +4,24 @@
 #include <limits>
 #include <tuple>
 
-#include "tools/oracle/verdict/parted.h"
 #include "tools/oracle/verdict/pricing.h"
+#include "tools/oracle/verdict/split_sample.h"
 
 namespace strata::oracle::verdict {
 
 namespace {
 
-PartedPixel::Reached how_reached(const Compositor& compositor, const StackedPixel& pixel, Steps& steps) {
+SplitPixel::Reached how_reached(const Compositor& compositor, const StackedPixel& pixel, Steps& steps) {
     const Stack* const found = reaching(compositor, pixel, steps);
-    if (found == nullptr) return PartedPixel::Reached::no;
-    return is_as_given(pixel, *found) ? PartedPixel::Reached::as_given : PartedPixel::Reached::at_edge;
+    if (found == nullptr) return SplitPixel::Reached::no;
+    return is_as_given(pixel, *found) ? SplitPixel::Reached::as_given : SplitPixel::Reached::at_edge;
 }
 
 // True if one of the hypotheses holds for all pixels under the rules; for codes, most pixels must not need another
 // rasterizer. Right pixels that the rules do not change remain right.
-bool survives(const Rules& rules, const Parted& parts, const std::vector<Compositor>& wide, bool is_noted,
+bool survives(const Rules& rules, const SplitSample& parts, const std::vector<Compositor>& wide, bool is_noted,
               const Setting& setting) {
-    using Reached = PartedPixel::Reached;
+    using Reached = SplitPixel::Reached;
     struct Left {
         std::size_t number = 0;  // index in `wide`
         std::size_t at_edges = 0;
@@ -35,7 +35,7 @@ bool survives(const Rules& rules, const Parted& parts, const std::vector<Composi
     // Limit of wrong pixels that the rules do not change: those would be due to the hypothesis.
     std::size_t may_stay = parts.wrong.size() * 3 / 4;
     for (const auto* pixels : {&parts.wrong, &parts.right})
-        for (const PartedPixel& pixel : *pixels) {
+        for (const SplitPixel& pixel : *pixels) {
             const StackedPixel made = stacked(rules, *pixel.sampled, maker);
             if (maker.steps().is_over()) return false;
             const bool stays = is_unchanged(made, pixel);
@@ -53,8 +53,8 @@ bool survives(const Rules& rules, const Parted& parts, const std::vector<Composi
     return true;
 }
 
-std::vector<Rules> survivors(const std::vector<Rules>& all, const Parted& parts, const std::vector<Hypothesis>& wide,
-                             const Setting& setting) {
+std::vector<Rules> survivors(const std::vector<Rules>& all, const SplitSample& parts,
+                             const std::vector<Hypothesis>& wide, const Setting& setting) {
     const std::vector<Compositor> compositors(wide.begin(), wide.end());
     const bool is_noted = parts.noted == wide;
     std::vector<std::uint8_t> lives(all.size());
@@ -68,7 +68,7 @@ std::vector<Rules> survivors(const std::vector<Rules>& all, const Parted& parts,
 
 // Pairs of rules of different kinds, in the order in which they are applied. The candidates for pairs are the rules
 // that alone explain the most wrong pixels, then those that change any.
-std::vector<Rules> pairs_of(const std::vector<Rule>& rules, const Parted& parts, const Hypothesis& closest,
+std::vector<Rules> pairs_of(const std::vector<Rule>& rules, const SplitSample& parts, const Hypothesis& closest,
                             const Setting& setting) {
     constexpr std::size_t most_looked_at = 64, most_worth = 60;
     const Compositor compositor{closest};
@@ -81,7 +81,7 @@ std::vector<Rules> pairs_of(const std::vector<Rule>& rules, const Parted& parts,
     for (const Rule& rule : rules) all.push_back({&rule});
     setting.work->for_each(rules.size(), [&](std::size_t i) {
         StackMaker maker{setting, setting.work->share()};
-        for (const PartedPixel& pixel : some) {
+        for (const SplitPixel& pixel : some) {
             if (maker.steps().is_over()) break;
             const StackedPixel made = stacked({&rules[i], 1}, *pixel.sampled, maker);
             if (is_unchanged(made, pixel)) continue;
@@ -102,7 +102,7 @@ std::vector<Rules> pairs_of(const std::vector<Rule>& rules, const Parted& parts,
     return pairs;
 }
 
-double bits_of(const Checked& checked) {
+double bits_of(const CheckedAccount& checked) {
     const Pricing pricing{checked.account.hypothesis.result.storage};
     return bits_of(checked.account.hypothesis) + checked.bits +
            static_cast<double>(checked.wrong_pixels.size()) * pricing.of_wrong();
@@ -110,12 +110,12 @@ double bits_of(const Checked& checked) {
 
 // The hypotheses that hold for nearly all right pixels, and whose intervals there cost at most as much as calling the
 // wrong pixels wrong: rounding does not explain these.
-Families possible(const Families& all, const Parted& parts, const Hypothesis& closest, const Setting& setting) {
+Families possible(const Families& all, const SplitSample& parts, const Hypothesis& closest, const Setting& setting) {
     const Pricing pricing{closest.result.storage};
     constexpr std::size_t most_looked_at = 300, few = 4, most_structures = 2048;
-    std::vector<const PartedPixel*> pixels = thinned(parts.right, most_looked_at);
+    std::vector<const SplitPixel*> pixels = thinned(parts.right, most_looked_at);
     std::size_t structures = 0;  // ties and edges make many structures, each tried with every hypothesis
-    std::erase_if(pixels, [&](const PartedPixel* pixel) {
+    std::erase_if(pixels, [&](const SplitPixel* pixel) {
         const std::size_t own = pixel->right.stacks.size();
         if (own > few && structures + own > most_structures) return true;
         structures += own;
@@ -166,7 +166,7 @@ Families possible(const Families& all, const Parted& parts, const Hypothesis& cl
 }
 
 // Of these hypotheses, those that reach each of a few wrong pixels under the rules.
-Families possible(const Families& all, const Rules& rules, const Parted& parts, const Setting& setting) {
+Families possible(const Families& all, const Rules& rules, const SplitSample& parts, const Setting& setting) {
     constexpr std::size_t most_looked_at = 8;
     // A mistake of few bits combined with arbitrary rounding would explain any value.
     const bool has_few_bits = std::ranges::find(rules, RuleKind::few_bits, &Rule::kind) != rules.end();
@@ -195,14 +195,14 @@ Families possible(const Families& all, const Rules& rules, const Parted& parts, 
 
 // Sorts by the number of wrong pixels explained under the closest hypothesis, because checking the whole picture is
 // expensive.
-std::vector<Rules> by_explained(const std::vector<Rules>& all, const Parted& parts, const Hypothesis& closest,
+std::vector<Rules> by_explained(const std::vector<Rules>& all, const SplitSample& parts, const Hypothesis& closest,
                                 const Setting& setting) {
     constexpr std::size_t most_looked_at = 96;
     const Compositor compositor{closest};
     auto wrong = thinned(parts.wrong, most_looked_at);
     // A pixel that needs another rasterizer may be a mistake as well.
     Steps steps{*setting.work};
-    for (const PartedPixel* pixel : thinned(parts.right, 4 * most_looked_at)) {
+    for (const SplitPixel* pixel : thinned(parts.right, 4 * most_looked_at)) {
         const Stack* const found = reaching(compositor, pixel->right, steps);
         if (found != nullptr && !is_as_given(pixel->right, *found)) wrong.push_back(pixel);
     }
@@ -210,7 +210,7 @@ std::vector<Rules> by_explained(const std::vector<Rules>& all, const Parted& par
     for (std::size_t i = 0; i < all.size(); ++i) explained[i].second = i;
     setting.work->for_each(all.size(), [&](std::size_t i) {
         StackMaker maker{setting, setting.work->share()};
-        for (const PartedPixel* pixel : wrong) {
+        for (const SplitPixel* pixel : wrong) {
             if (maker.steps().is_over()) break;
             const StackedPixel made = stacked(all[i], *pixel->sampled, maker);
             const Stack* const found = reaching(compositor, made, maker.steps());
@@ -225,7 +225,7 @@ std::vector<Rules> by_explained(const std::vector<Rules>& all, const Parted& par
 
 // The limit of an account's bits, above which it would fit anything. For codes, nine per changed pixel and one per
 // pixel; for floats, whose blends are inexact everywhere, a third of all digits.
-double most_open(const Checked& account) {
+double most_open(const CheckedAccount& account) {
     constexpr double of_changed = 9, of_edge = 6, share_of_digits = 1.0 / 3;
     const Storage storage = account.account.hypothesis.result.storage;
     const auto pixels = static_cast<double>(account.pixels), edges = of_edge * static_cast<double>(account.at_edges);
@@ -235,16 +235,17 @@ double most_open(const Checked& account) {
 
 // True if the account needs less than half of the bits of the right structure's account, and many pixels contradict the
 // right structure under its hypothesis.
-bool is_much_closer(const Checked& account, double right_bits) {
+bool is_much_closer(const CheckedAccount& account, double right_bits) {
     constexpr std::uint64_t many = 64;
     const std::uint64_t decided = account.changed - account.undecided;
     return 2 * account.bits < right_bits && decided >= many && 10 * account.undecided <= account.changed;
 }
 
 // The accounts that hold for the whole picture; of rules that differ only in their numbers, only the first.
-std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& scene, const Colors& candidate,
-                           const Families& definite, const std::optional<Hypothesis>& closest, const Parted& parts,
-                           const Sample& sample, std::size_t most_tried, const AgainstRight& against = {}) {
+std::vector<CheckedAccount> whole(const std::vector<Rules>& all, const SceneFragments& scene, const Colors& candidate,
+                                  const Families& definite, const std::optional<Hypothesis>& closest,
+                                  const SplitSample& parts, const Sample& sample, std::size_t most_tried,
+                                  const AgainstRight& against = {}) {
     constexpr std::size_t most_told = 12, least_decided = 4, few_sampled = 400;
     std::size_t tried = 0;
     const auto is_alike = [](const Rules& a, const Rules& b) {
@@ -252,10 +253,11 @@ std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& 
             return x.kind == y.kind && x.scope == y.scope && x.kind != RuleKind::few_bits;
         });
     };
-    std::vector<Checked> found;
+    std::vector<CheckedAccount> found;
     for (const Rules& rules : all) {
         if (found.size() == most_told || scene.setting().work->is_spent()) break;
-        if (std::ranges::any_of(found, [&](const Checked& c) { return is_alike(c.account.rules, rules); })) continue;
+        if (std::ranges::any_of(found, [&](const CheckedAccount& c) { return is_alike(c.account.rules, rules); }))
+            continue;
         if (++tried > most_tried) break;
         const Families own_families = possible(definite, rules, parts, scene.setting());
         if (own_families.empty()) continue;
@@ -272,30 +274,31 @@ std::vector<Checked> whole(const std::vector<Rules>& all, const SceneFragments& 
 }
 
 // Removes accounts that need much more bits than the best one.
-void drop_roomy(std::vector<Checked>& found, double most_bits) {
-    std::ranges::stable_sort(found, {}, [](const Checked& c) { return bits_of(c); });
+void drop_roomy(std::vector<CheckedAccount>& found, double most_bits) {
+    std::ranges::stable_sort(found, {}, [](const CheckedAccount& c) { return bits_of(c); });
     if (found.empty()) return;
     const double most = std::min(1.05 * bits_of(found[0]) + 64, most_bits);
-    std::erase_if(found, [&](const Checked& c) { return bits_of(c) > most; });
+    std::erase_if(found, [&](const CheckedAccount& c) { return bits_of(c) > most; });
 }
 
 }  // namespace
 
-std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate, const Families& definite,
-                            const Checked& closest, const Sample& sample, int most_rules, const Region& region) {
+std::vector<CheckedAccount> search(const SceneFragments& scene, const Colors& candidate, const Families& definite,
+                                   const CheckedAccount& closest, const Sample& sample, int most_rules,
+                                   const Region& region) {
     constexpr std::size_t least_of_pairs = 8;  // wrong pixels; with fewer, two mistakes cannot be distinguished
     // Limits of the accounts that are tried on the whole picture: counts instead of times, so that the result is the
     // same on every machine.
     constexpr std::size_t most_tried = 24, most_tried_again = 12, most_pairs_tried = 8;
     std::vector<Rule> rules = rules_for(facts_of(scene, sample));
     for (Rule& rule : rules) rule.region = region;
-    const Parted parts = parted(sample, closest.account.hypothesis);
+    const SplitSample parts = split_by_account(sample, closest.account.hypothesis);
     if (scene.setting().work->is_spent() || (most_rules > 1 && parts.wrong.size() < least_of_pairs)) return {};
     const std::vector<Rules> all =
         most_rules > 1 ? pairs_of(rules, parts, closest.account.hypothesis, scene.setting()) : singles(rules);
     // First uses the hypotheses that hold for the right pixels. If the mistake affects all pixels, these are not right
     // under the true hypothesis, so all are tried afterwards.
-    std::vector<Checked> found;
+    std::vector<CheckedAccount> found;
     const Families likely = possible(definite, parts, closest.account.hypothesis, scene.setting());
     const auto find = [&](const Families& some, std::size_t most) {
         const std::vector<Rules> left = by_explained(survivors(all, parts, widest(some), scene.setting()), parts,
@@ -312,28 +315,28 @@ namespace {
 
 // Notes how the right structure reaches the pixels under each hypothesis, and sorts the pixels with the most
 // information first: those with one structure, and of these the ones that the fewest hypotheses reach.
-void put_telling_first(Parted& parts, const std::vector<Hypothesis>& each, const Setting& setting) {
+void put_telling_first(SplitSample& parts, const std::vector<Hypothesis>& each, const Setting& setting) {
     const std::vector<Compositor> compositors(each.begin(), each.end());
     parts.noted = each;
     setting.work->for_each(parts.wrong.size(), [&](std::size_t i) {
-        PartedPixel& pixel = parts.wrong[i];
+        SplitPixel& pixel = parts.wrong[i];
         StackMaker maker{setting};
         pixel.right = stacked({}, *pixel.sampled, maker);
         for (const Compositor& c : compositors) pixel.reached.push_back(how_reached(c, pixel.right, maker.steps()));
     });
-    std::ranges::stable_sort(parts.wrong, {}, [](const PartedPixel& pixel) {
+    std::ranges::stable_sort(parts.wrong, {}, [](const SplitPixel& pixel) {
         const PixelList& list = pixel.sampled->list;
-        const auto missed = std::ranges::count(pixel.reached, PartedPixel::Reached::no);
+        const auto missed = std::ranges::count(pixel.reached, SplitPixel::Reached::no);
         return std::tuple{list.edge != nullptr, verdict::has_ties(list.visible), -missed};
     });
 }
 
 }  // namespace
 
-std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candidate, const Families& narrow,
-                                const Sample& sample, const AgainstRight& against) {
+std::vector<CheckedAccount> search_all(const SceneFragments& scene, const Colors& candidate, const Families& narrow,
+                                       const Sample& sample, const AgainstRight& against) {
     constexpr std::size_t most_tried = 8;  // each is checked with every hypothesis
-    Parted parts{.has_no_account = true};
+    SplitSample parts{.has_no_account = true};
     for (const SampledPixel& pixel : sample.pixels()) parts.wrong.push_back({.sampled = &pixel});
     std::vector<Hypothesis> each;
     for (const HypothesisFamily& family : narrow)
@@ -345,7 +348,7 @@ std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candi
     const std::vector<Rules> possible = survivors(all, parts, widest(narrow), scene.setting());
     const std::vector<Rules> left = survivors(possible, parts, each, scene.setting());
     if (left.empty()) return {};
-    std::vector<Checked> found = whole(left, scene, candidate, narrow, {}, parts, sample, most_tried, against);
+    std::vector<CheckedAccount> found = whole(left, scene, candidate, narrow, {}, parts, sample, most_tried, against);
     drop_roomy(found, std::numeric_limits<double>::max());
     return found;
 }

@@ -16,9 +16,9 @@ namespace strata::oracle::verdict {
 // Accounts with `most_rules` rules, one or two, each of which holds for the whole picture; the best is first.
 // `definite`: the hypotheses under which they must hold; `closest`: the account of the right structure with the least
 // cost; `sample`: pixels, including some wrong ones; `region`: the pixels at which the port makes the mistake.
-[[nodiscard]] std::vector<Checked> search(const SceneFragments& scene, const Colors& candidate,
-                                          const Families& definite, const Checked& closest, const Sample& sample,
-                                          int most_rules, const Region& region = {});
+[[nodiscard]] std::vector<CheckedAccount> search(const SceneFragments& scene, const Colors& candidate,
+                                                 const Families& definite, const CheckedAccount& closest,
+                                                 const Sample& sample, int most_rules, const Region& region = {});
 
 // The same with one rule and without the closest account, under narrow hypotheses: accounts must explain every pixel of
 // the sample, including those that a wider hypothesis would call right.
@@ -26,11 +26,11 @@ struct AgainstRight {
     double bits = 0;                                      // of the account of the right structure
     int most_rejected = std::numeric_limits<int>::max();  // hypotheses of each rule (match.h)
 };
-[[nodiscard]] std::vector<Checked> search_all(const SceneFragments& scene, const Colors& candidate,
-                                              const Families& narrow, const Sample& sample,
-                                              const AgainstRight& against);
+[[nodiscard]] std::vector<CheckedAccount> search_all(const SceneFragments& scene, const Colors& candidate,
+                                                     const Families& narrow, const Sample& sample,
+                                                     const AgainstRight& against);
 
 // The rules that explain the most wrong pixels of a sample, the best first.
-[[nodiscard]] std::vector<Lead> leads(const SceneFragments& scene, const Checked& closest, const Sample& sample);
+[[nodiscard]] std::vector<Lead> leads(const SceneFragments& scene, const CheckedAccount& closest, const Sample& sample);
 
 }  // namespace strata::oracle::verdict

@@ -77,7 +77,7 @@ bool Sums::hold(const std::array<double, 4>& value) const noexcept {
     return false;
 }
 
-bool holds(const Reach& reach, const std::array<double, 4>& value) noexcept {
+bool holds(const ReachableColor& reach, const std::array<double, 4>& value) noexcept {
     for (std::size_t c = 0; c < 3; ++c)
         if (!(value[c] >= reach[c].low - fine && value[c] <= reach[c].high + fine)) return false;
     return reach.sums.front_unit == 0 || reach.sums.hold(value);

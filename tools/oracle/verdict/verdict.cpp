@@ -26,7 +26,7 @@ Choices choices(const Colors& candidate) {
     return {with(fine, Looseness::definite), with(coarse, Looseness::definite), with(coarse, Looseness::loose)};
 }
 
-double bits_of(const Checked& c, Storage storage) {
+double bits_of(const CheckedAccount& c, Storage storage) {
     return c.bits + static_cast<double>(c.wrong_pixels.size()) * Pricing{storage}.of_wrong();
 }
 
@@ -37,7 +37,7 @@ std::vector<Rule> alike_in(const Sample& sample, const std::vector<Rule>& rules,
         const Compositor compositor{hypothesis};
         StackMaker maker{sample.setting()};
         for (const SampledPixel& pixel : sample.pixels())
-            if (ties_that_hold(compositor, {&rules[i], 1}, pixel.list, pixel.value, maker).mask == 0) {
+            if (matching_ties(compositor, {&rules[i], 1}, pixel.list, pixel.value, maker).mask == 0) {
                 is_alike[i] = 0;
                 break;
             }
@@ -99,8 +99,8 @@ Target rearranged(const Colors& candidate, RuleKind kind) {
 }
 
 // Tests whether the picture is right except that its rows or columns are reversed.
-std::optional<Checked> right_but_rearranged(const SceneFragments& scene, const Colors& candidate,
-                                            const Families& definite, std::size_t most_sampled) {
+std::optional<CheckedAccount> right_but_rearranged(const SceneFragments& scene, const Colors& candidate,
+                                                   const Families& definite, std::size_t most_sampled) {
     for (const RuleKind kind : {RuleKind::rows_reversed, RuleKind::columns_reversed, RuleKind::turned}) {
         const Target target = rearranged(candidate, kind);
         const Colors colors{target, candidate.use()};
@@ -116,7 +116,7 @@ std::optional<Checked> right_but_rearranged(const SceneFragments& scene, const C
 
 // True if a right account needs no comparison with others, because its intervals are narrow: one code, or few bits per
 // pixel for floats.
-bool leaves_little_open(const Checked& right) {
+bool leaves_little_open(const CheckedAccount& right) {
     const bool is_in_codes = has_codes(right.account.hypothesis.result.storage);
     if (!is_in_codes && right.bits <= 4 * static_cast<double>(right.covered)) return true;
     return right.possible <= 1 || (is_in_codes && right.observed <= 1);
@@ -135,14 +135,14 @@ Sample deepest(const Sample& sample, std::size_t most) {
 }
 
 // True if the intervals are at most two codes wide, as after another order of the same blends.
-bool is_narrow(const Checked& right) {
+bool is_narrow(const CheckedAccount& right) {
     return has_codes(right.account.hypothesis.result.storage) && right.possible <= 2;
 }
 
 // Finds mistakes that explain the picture in fewer bits than a right account with wide intervals. If there are any,
 // fitting these intervals is no evidence that the picture is right.
-std::vector<Checked> told_better(const SceneFragments& scene, const Colors& candidate, const Choices& all,
-                                 const Checked& right, const Sample& even) {
+std::vector<CheckedAccount> told_better(const SceneFragments& scene, const Colors& candidate, const Choices& all,
+                                        const CheckedAccount& right, const Sample& even) {
     // Another order of the same blends can change a value by two codes. Intervals so narrow fit few mistakes, and few
     // pixels and hypotheses are enough to find these.
     const bool is_few = is_narrow(right);
@@ -153,26 +153,26 @@ std::vector<Checked> told_better(const SceneFragments& scene, const Colors& cand
     if (leaves_little_open(right)) return {};
     const Sample deep = deepest(even, most).with_few_structures(most_structures);
     const Families narrow = narrower(all.definite, right.account.hypothesis, deep);
-    std::vector<Checked> better = search_all(scene, candidate, narrow, deep, against);
-    std::erase_if(better, [&](const Checked& c) { return c.bits + least_bits > share * right.bits; });
+    std::vector<CheckedAccount> better = search_all(scene, candidate, narrow, deep, against);
+    std::erase_if(better, [&](const CheckedAccount& c) { return c.bits + least_bits > share * right.bits; });
     return better;
 }
 
 // The account of the right structure that describes the picture, including its wrong pixels, in the fewest bits. The
 // hypothesis is chosen on a sample, then again with some of the wrong pixels added.
-Checked closest_account(const SceneFragments& scene, const Colors& candidate, const Families& definite,
-                        const Sample& even, Sample& examples) {
+CheckedAccount closest_account(const SceneFragments& scene, const Colors& candidate, const Families& definite,
+                               const Sample& even, Sample& examples) {
     constexpr std::size_t few_sampled = 300, few_added = 75,
                           few_structures = 1024;  // each is tried with every hypothesis
     constexpr int most_tries = 4;
     const Storage storage = storage_of(candidate.code());
     Sample sample = even.thinned(few_sampled).with_few_structures(few_structures);
-    std::optional<Checked> best;
+    std::optional<CheckedAccount> best;
     for (int i = 0; i < most_tries; ++i) {
-        const Hypothesis next = *best_of(definite, {}, sample, Wrong::some);
+        const Hypothesis next = *best_of(definite, {}, sample, WrongPixels::some);
         if (best && next == best->account.hypothesis) break;
         Sample wrong{scene.setting()};
-        Checked found = check_all(scene, candidate, {{}, next}, Wrong::some, wrong);
+        CheckedAccount found = check_all(scene, candidate, {{}, next}, WrongPixels::some, wrong);
         const bool is_better = !best || bits_of(found, storage) < bits_of(*best, storage);
         const Sample some = wrong.thinned(few_added).with_few_structures(few_structures);
         for (const SampledPixel& pixel : some.pixels()) sample.add(pixel.list, pixel.value);
@@ -214,7 +214,7 @@ Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits
     const Storage storage = storage_of(candidate.code());
     const Choices all = choices(candidate);
     Verdict verdict{.width = scene.width()};
-    const auto is_right = [&](Checked&& right, const Sample& even) {
+    const auto is_right = [&](CheckedAccount&& right, const Sample& even) {
         verdict.right = std::move(right);
         work.allow(limits.narrower + of_fragments);
         verdict.explanations = told_better(scene, candidate, all, verdict.right, even);

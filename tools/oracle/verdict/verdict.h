@@ -21,16 +21,16 @@ struct Verdict {
     bool is_right = false;
     int width = 0;  // of the picture, in pixels
     SceneFacts facts{};
-    Checked right{};                      // the closest account of the right structure
-    AlphaChecked alpha{};                 // of a picture whose colours are all right
-    std::vector<Checked> explanations{};  // mistakes, if colours are wrong
-    std::vector<Lead> leads{};            // if no mistake explains the whole picture
+    CheckedAccount right{};                      // the closest account of the right structure
+    AlphaChecked alpha{};                        // of a picture whose colours are all right
+    std::vector<CheckedAccount> explanations{};  // mistakes, if colours are wrong
+    std::vector<Lead> leads{};                   // if no mistake explains the whole picture
     // The kinds of mistakes that give the same picture of this scene: if it is right, those that would be called right,
     // too.
     std::vector<Rule> alike{};
-    std::size_t kinds = 0;    // number of kinds that were tried
-    bool is_stopped = false;  // the search ended before all mistakes were tried
-    std::string telling{};    // command of a scene that distinguishes the explanations, if one is known
+    std::size_t kinds = 0;                 // number of kinds that were tried
+    bool is_stopped = false;               // the search ended before all mistakes were tried
+    std::string distinguishing_command{};  // command of a scene that distinguishes the explanations, if one is known
 
     // True if rounding explains every pixel, but the search ended before all mistakes that may explain the picture
     // better were tried.

@@ -97,7 +97,7 @@ struct CoherentTargets {
         return with_samplers(fmt::format(fmt::runtime(text), kept));
     }
     [[nodiscard]] Handle composite_program(const std::string& kept) const {
-        return with_samplers(fmt::format(composite_text, input.way.premultiplied, kept));
+        return with_samplers(fmt::format(composite_text, input.settings.premultiplied, kept));
     }
 };
 
@@ -159,7 +159,7 @@ void show(const CoherentTargets& t, const std::string& kind, const DepthStencil&
 // P1: the nearest remaining fragment; the stencil counts the updates of the depth.
 std::uint64_t find_nearest(const CoherentTargets& t, bool from_the_start, Record* record) {
     start(t, t.nearest, far_plane, nullptr);
-    use({GL_LESS, GL_ALWAYS, 0, {GL_KEEP, GL_KEEP, t.input.way.stencil_increment}});
+    use({GL_LESS, GL_ALWAYS, 0, {GL_KEEP, GL_KEEP, t.input.settings.stencil_increment}});
     const std::uint64_t found = draw(t, from_the_start ? t.find_all : t.find_left, t.reached.name(), 0);
     show(t, "geometry", t.nearest, found, record);
     return found;
@@ -168,16 +168,16 @@ std::uint64_t find_nearest(const CoherentTargets& t, bool from_the_start, Record
 // P2 to P4 and the quad: the fragments submitted before the nearest one, the run that starts there, and the fragments
 // that interrupt it.
 void find_run(const CoherentTargets& t, bool from_the_start, Record* record) {
-    start(t, t.previous, far_plane, t.input.way.stencil_kept ? &t.nearest : nullptr);
+    start(t, t.previous, far_plane, t.input.settings.stencil_kept ? &t.nearest : nullptr);
     use({GL_LESS, GL_LESS, 1, {GL_KEEP, GL_KEEP, GL_DECR}});
     draw(t, from_the_start ? t.find_all : t.find_left, t.reached.name(), 0);
     show(t, "geometry", t.previous, {}, record);
     start(t, t.last_in_order, 0.0f, nullptr);
-    use({GL_GREATER, GL_GREATER, 128, {GL_KEEP, GL_INVERT, t.input.way.stencil_increment}});
+    use({GL_GREATER, GL_GREATER, 128, {GL_KEEP, GL_INVERT, t.input.settings.stencil_increment}});
     draw(t, t.find_run, t.nearest.texture.name(), t.previous.texture.name());
     show(t, "geometry", t.last_in_order, {}, record);
     start(t, t.breaker, far_plane, &t.last_in_order);
-    use({GL_LESS, GL_EQUAL, 255, {t.input.way.stencil_increment, GL_KEEP, GL_KEEP}});
+    use({GL_LESS, GL_EQUAL, 255, {t.input.settings.stencil_increment, GL_KEEP, GL_KEEP}});
     draw(t, t.find_run, t.nearest.texture.name(), t.previous.texture.name());
     show(t, "geometry", t.breaker, {}, record);
     glDisable(GL_STENCIL_TEST);
@@ -194,7 +194,7 @@ void composite(const CoherentTargets& t, Record* record) {
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
-    const auto& factors = t.input.way.under;
+    const auto& factors = t.input.settings.under;
     glBlendFuncSeparate(factors[0], factors[1], factors[2], factors[3]);
     const std::uint64_t run = draw(t, t.composite_run, t.nearest.texture.name(), t.reached.name());
     show(t, "geometry", t.breaker, run, record);
@@ -207,7 +207,7 @@ void composite(const CoherentTargets& t, Record* record) {
 
 int coherent_stencil(const CoherentTargets& t, int max_passes, Image& picture, Record* record) {
     t.opaque.draw(t.input.scene);
-    const std::array<float, 4> transparent{0, 0, 0, t.input.way.transmittance_start};
+    const std::array<float, 4> transparent{0, 0, 0, t.input.settings.transmittance_start};
     glBindFramebuffer(GL_FRAMEBUFFER, t.composite.name());
     glClearBufferfv(GL_COLOR, 0, transparent.data());
     glBindFramebuffer(GL_FRAMEBUFFER, t.reach.name());
@@ -215,7 +215,7 @@ int coherent_stencil(const CoherentTargets& t, int max_passes, Image& picture, R
     for (const DepthStencil* target : {&t.previous, &t.last_in_order, &t.breaker}) start(t, *target, 0.0f, nullptr);
     int passes = 1;
     bool from_the_start = true;
-    while (find_nearest(t, from_the_start, record) > t.input.way.query_limit && passes + 6 <= max_passes) {
+    while (find_nearest(t, from_the_start, record) > t.input.settings.query_limit && passes + 6 <= max_passes) {
         find_run(t, from_the_start, record);
         composite(t, record);
         from_the_start = false;

@@ -40,7 +40,7 @@ struct Layer {
           framebuffer{make_framebuffer({color.name()}, depth.name())} {
         glBindTexture(GL_TEXTURE_2D, depth.name());
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, static_cast<GLint>(in.way.shadow_compare));
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, static_cast<GLint>(in.settings.shadow_compare));
     }
 };
 
@@ -72,7 +72,7 @@ std::uint64_t peel(const UnitTargets& t, const Layer* peeled, const Layer& to) {
     glClearBufferfv(GL_COLOR, 0, zero.data());
     glDisable(GL_BLEND);
     glEnable(GL_DEPTH_TEST);
-    glDepthFunc(t.input.way.depth_func);
+    glDepthFunc(t.input.settings.depth_func);
     bind({peeled == nullptr ? 0 : peeled->depth.name()});
     glUseProgram((peeled == nullptr ? t.first_program : t.next_program).name());
     glBeginQuery(GL_SAMPLES_PASSED, t.query.name());
@@ -83,7 +83,7 @@ std::uint64_t peel(const UnitTargets& t, const Layer* peeled, const Layer& to) {
 
 // OVER, from the farthest layer to the nearest. A pixel without such a layer has alpha 0.
 void composite(const UnitTargets& t, const std::vector<Layer>& layers, std::size_t left_out, Record* record) {
-    if (t.input.way.background_used) {
+    if (t.input.settings.background_used) {
         t.opaque.copy_color_to(t.composite);
     } else {
         glBindFramebuffer(GL_FRAMEBUFFER, t.composite.name());
@@ -93,7 +93,7 @@ void composite(const UnitTargets& t, const std::vector<Layer>& layers, std::size
         glBindFramebuffer(GL_FRAMEBUFFER, t.composite.name());
         glEnable(GL_BLEND);
         glBlendEquation(GL_FUNC_ADD);
-        glBlendFunc(t.input.way.over[0], t.input.way.over[1]);
+        glBlendFunc(t.input.settings.over[0], t.input.settings.over[1]);
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // the final alpha stays 1
         bind({layers[i].color.name()});
         draw_full_screen(t.copy_program);
@@ -109,7 +109,7 @@ int depth_units(const UnitTargets& t, int max_passes, Image& picture, Record* re
     for (bool left = true; left && static_cast<int>(layers.size()) < max_passes;) {
         Layer layer(t.input);
         const std::uint64_t drawn = peel(t, layers.empty() ? nullptr : &layers.back(), layer);
-        left = drawn > t.input.way.query_limit;
+        left = drawn > t.input.settings.query_limit;
         layers.push_back(std::move(layer));
         const Layer& last = layers.back();
         const std::string number = layers.size() > 1 ? fmt::format(".{}", layers.size() - 1) : "";
@@ -121,7 +121,7 @@ int depth_units(const UnitTargets& t, int max_passes, Image& picture, Record* re
             record->layers.push_back({read_back(last.color.name(), formats.color, t.input.size),
                                       read_back(last.depth.name(), formats.depth, t.input.size)});
     }
-    const auto lost = static_cast<std::size_t>(t.input.way.passes_left_out);
+    const auto lost = static_cast<std::size_t>(t.input.settings.passes_left_out);
     composite(t, layers, lost > 0 ? lost + 1 : 0, record);
     t.finish.draw(t.result.name(), t.result.name(), picture, nullptr);
     return static_cast<int>(layers.size());

@@ -86,7 +86,7 @@ struct DualTargets {
     explicit DualTargets(const JobInput& in)
         : input{in},
           opaque{in, d32f},
-          min_max{make_texture(in.way.min_max, in.size), make_texture(in.way.min_max, in.size)},
+          min_max{make_texture(in.settings.min_max, in.size), make_texture(in.settings.min_max, in.size)},
           front{make_texture(in.formats.color, in.size), make_texture(in.formats.color, in.size)},
           back_dump{make_texture(in.formats.color, in.size)},
           back{make_texture(in.formats.color, in.size)},
@@ -95,7 +95,7 @@ struct DualTargets {
           min_max_program{
               in.scene.make_program(opaque.hidden_text() + min_max_text, {"unused_0", "unused_1", "opaque_depth"})},
           peel_program{in.scene.make_program(
-              opaque.hidden_text() + fmt::format(dual_text, in.way.at_neither_end, in.way.back_layer),
+              opaque.hidden_text() + fmt::format(dual_text, in.settings.at_neither_end, in.settings.back_layer),
               {"last_min_max", "last_front", "opaque_depth"})},
           blend_program{make_full_screen_program(blend_back_text, {"back"})},
           left_program{make_full_screen_program(what_is_left_text, {"min_max"})},
@@ -119,20 +119,20 @@ void initialize(const DualTargets& t, Record* record) {
     t.opaque.draw(t.input.scene);
     glBindFramebuffer(GL_FRAMEBUFFER, t.peel[0].name());
     glClearBufferfv(GL_COLOR, 1, zero.data());
-    if (t.input.way.background_used) {
+    if (t.input.settings.background_used) {
         t.opaque.copy_color_to(t.blend);
     } else {
         glBindFramebuffer(GL_FRAMEBUFFER, t.blend.name());
         glClearBufferfv(GL_COLOR, 0, zero.data());
     }
     glBindFramebuffer(GL_FRAMEBUFFER, t.initialize[0].name());
-    glClearBufferfv(GL_COLOR, 0, t.input.way.empty_min_max.data());
-    use_max(t.input.way.min_max_equation);
+    glClearBufferfv(GL_COLOR, 0, t.input.settings.empty_min_max.data());
+    use_max(t.input.settings.min_max_equation);
     bind({0, 0, t.opaque.depth()});
     glUseProgram(t.min_max_program.name());
     t.input.scene.draw();
     show_pass(record, t.input.size, "geometry",
-              {{"min_max", t.min_max[0].name(), t.input.way.min_max},
+              {{"min_max", t.min_max[0].name(), t.input.settings.min_max},
                {"front", t.front[0].name(), t.input.formats.color},
                {"back", t.back.name(), t.input.formats.color}});
 }
@@ -140,10 +140,10 @@ void initialize(const DualTargets& t, Record* record) {
 // One geometry pass: fragments at the ends of `last` become colours, those between them determine the next ends.
 void peel_both_ends(const DualTargets& t, std::size_t last) {
     glBindFramebuffer(GL_FRAMEBUFFER, t.peel[1 - last].name());
-    glClearBufferfv(GL_COLOR, 0, t.input.way.empty_min_max.data());
+    glClearBufferfv(GL_COLOR, 0, t.input.settings.empty_min_max.data());
     glClearBufferfv(GL_COLOR, 1, zero.data());
     glClearBufferfv(GL_COLOR, 2, zero.data());
-    use_max(t.input.way.min_max_equation);
+    use_max(t.input.settings.min_max_equation);
     bind({t.min_max[last].name(), t.front[last].name(), t.opaque.depth()});
     glUseProgram(t.peel_program.name());
     t.input.scene.draw();
@@ -154,7 +154,7 @@ void peel_both_ends(const DualTargets& t, std::size_t last) {
 std::uint64_t blend_back(const DualTargets& t, std::size_t min_max) {
     glBindFramebuffer(GL_FRAMEBUFFER, t.blend.name());
     glBlendEquation(GL_FUNC_ADD);
-    glBlendFunc(t.input.way.over[0], t.input.way.over[1]);
+    glBlendFunc(t.input.settings.over[0], t.input.settings.over[1]);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // the back colours have no alpha of their own
     bind({t.back_dump.name()});
     draw_full_screen(t.blend_program);
@@ -170,7 +170,7 @@ std::uint64_t blend_back(const DualTargets& t, std::size_t min_max) {
 
 // Records the targets after a pass.
 void show(const DualTargets& t, const std::string& kind, std::optional<std::uint64_t> query, Record* record) {
-    const Format &color = t.input.formats.color, &min_max = t.input.way.min_max;
+    const Format &color = t.input.formats.color, &min_max = t.input.settings.min_max;
     show_pass(record, t.input.size, kind,
               {{"min_max", t.min_max[0].name(), min_max},
                {"min_max.1", t.min_max[1].name(), min_max},
@@ -192,9 +192,9 @@ int dual(const DualTargets& t, int max_passes, Image& picture, Record* record) {
         peel_both_ends(t, last);
         show(t, "geometry", {}, record);
         const std::uint64_t still = blend_back(t, 1 - last);
-        left = still > t.input.way.query_limit;
+        left = still > t.input.settings.query_limit;
         show(t, "full_screen", still, record);
-        if (t.input.way.swaps) last = 1 - last;
+        if (t.input.settings.swaps) last = 1 - last;
     }
     t.finish.draw(t.front[last].name(), t.back.name(), picture, record);
     return passes;
@@ -205,7 +205,7 @@ int dual(const DualTargets& t, int max_passes, Image& picture, Record* record) {
 Job dual_job(const JobInput& input) {
     const auto t = std::make_shared<DualTargets>(input);
     return {"dual", [t](Image& picture, int max_passes, Record* record) {
-                const int lost = t->input.way.passes_left_out;
+                const int lost = t->input.settings.passes_left_out;
                 if (lost > 0) max_passes = dual(*t, max_passes, picture, nullptr) - lost;
                 return dual(*t, max_passes, picture, record);
             }};

@@ -4,11 +4,11 @@
 
 namespace strata::port {
 
-void set_window(Size size, const Way& way, GLenum clip_depth) {
+void set_window(Size size, const PortSettings& settings, GLenum clip_depth) {
     const GLenum other = clip_depth == GL_ZERO_TO_ONE ? GL_NEGATIVE_ONE_TO_ONE : GL_ZERO_TO_ONE;
     glViewport(0, 0, size.width, size.height);
-    glClipControl(way.origin, way.other_clip_depth ? other : clip_depth);
-    (way.scissored ? glEnable : glDisable)(GL_SCISSOR_TEST);
+    glClipControl(settings.origin, settings.other_clip_depth ? other : clip_depth);
+    (settings.scissored ? glEnable : glDisable)(GL_SCISSOR_TEST);
     glScissor(0, 0, size.width * 3 / 4, size.height);
 }
 
@@ -17,7 +17,7 @@ Opaque::Opaque(const JobInput& input, const Format& depth)
       format_{depth},
       background_{input.background},
       exists_{input.scene.has(Surfaces::opaque)},
-      tested_{input.way.opaque_tested},
+      tested_{input.settings.opaque_tested},
       color_{make_texture(input.formats.color, input.size)},
       depth_{make_texture(depth, input.size)},
       framebuffer_{make_framebuffer({color_.name()}, depth_.name())},
@@ -70,7 +70,7 @@ std::string Opaque::hidden_text() const {
 
 Finish::Finish(const JobInput& input, const std::string& through)
     : input_{input},
-      encodes_{input.way.encoded_again && input.formats.color == rgba8},
+      encodes_{input.settings.encoded_again && input.formats.color == rgba8},
       target_{make_texture(encodes_ ? srgb8 : input.formats.color, input.size)},
       framebuffer_{make_framebuffer({target_.name()})},
       program_{make_full_screen_program(
@@ -86,7 +86,8 @@ void main() {{
     result = vec4(mixed, 1.0);
 }}
 )",
-                      input.way.background_used ? "texelFetch(behind_target, pixel, 0).rgb" : "vec3(0.0)", through),
+                      input.settings.background_used ? "texelFetch(behind_target, pixel, 0).rgb" : "vec3(0.0)",
+                      through),
           {"front_target", "behind_target"})} {}
 
 void Finish::draw(GLuint front, GLuint behind, Image& picture, Record* record) const {
@@ -102,7 +103,7 @@ void Finish::draw(GLuint front, GLuint behind, Image& picture, Record* record) c
 
 Image read_picture(GLuint texture, const JobInput& input) {
     Format read = input.formats.color;
-    read.external = input.way.channel_order;
+    read.external = input.settings.channel_order;
     Image picture = read_back(texture, read, input.size);
     picture.format = input.formats.color;
     return picture;

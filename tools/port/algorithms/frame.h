@@ -8,7 +8,7 @@ inline constexpr std::array<float, 4> zero{};
 inline constexpr float far_plane = 1.0f;
 
 // Viewport, clip control and scissor; `clip_depth` is the scene's.
-void set_window(Size size, const Way& way, GLenum clip_depth);
+void set_window(Size size, const PortSettings& settings, GLenum clip_depth);
 
 // The opaque surfaces: colour over the background, and depth. A scene without any has the clear values.
 class Opaque {

@@ -49,7 +49,7 @@ struct PeelTargets {
           query{make_query()},
           under_program{make_full_screen_program(copy_text, {"source"})},
           finish{in, "front.a"} {
-        const std::string text = fmt::format(peel_text, in.way.premultiplied, in.way.behind);
+        const std::string text = fmt::format(peel_text, in.settings.premultiplied, in.settings.behind);
         first_program = in.scene.make_program(text);
         next_program =
             in.scene.make_program("#define PEELS\n" + stored_text(in.formats.depth) + text, {"peeled_depth"});
@@ -57,7 +57,7 @@ struct PeelTargets {
     }
     // The depth that pass number `pass` writes.
     [[nodiscard]] std::size_t nearest(int pass) const {
-        return input.way.swaps ? static_cast<std::size_t>(pass) % 2 : 0;
+        return input.settings.swaps ? static_cast<std::size_t>(pass) % 2 : 0;
     }
 };
 
@@ -69,7 +69,7 @@ std::uint64_t peel_layer(const PeelTargets& t, int pass) {
     glClearBufferfv(GL_COLOR, 0, zero.data());
     glDisable(GL_BLEND);
     glEnable(GL_DEPTH_TEST);
-    glDepthFunc(t.input.way.depth_func);
+    glDepthFunc(t.input.settings.depth_func);
     bind({t.depth[1 - nearest].name()});
     glUseProgram((pass == 0 ? t.first_program : t.next_program).name());
     glBeginQuery(GL_SAMPLES_PASSED, t.query.name());
@@ -83,7 +83,7 @@ void blend_under(const PeelTargets& t) {
     glBindFramebuffer(GL_FRAMEBUFFER, t.under.name());
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
-    const auto& factors = t.input.way.under;
+    const auto& factors = t.input.settings.under;
     glBlendFuncSeparate(factors[0], factors[1], factors[2], factors[3]);
     bind({t.layer.name()});
     draw_full_screen(t.under_program);
@@ -105,13 +105,13 @@ void show(const PeelTargets& t, const std::string& kind, int pass, std::optional
 // empty last one.
 int front_to_back(const PeelTargets& t, int max_passes, Image& picture, Record* record) {
     t.opaque.draw(t.input.scene);
-    const std::array<float, 4> transparent{0, 0, 0, t.input.way.transmittance_start};
+    const std::array<float, 4> transparent{0, 0, 0, t.input.settings.transmittance_start};
     glBindFramebuffer(GL_FRAMEBUFFER, t.under.name());
     glClearBufferfv(GL_COLOR, 0, transparent.data());
     int passes = 0;
     for (bool left = true; left && passes < max_passes; ++passes) {
         const std::uint64_t drawn = peel_layer(t, passes);
-        left = drawn > t.input.way.query_limit;
+        left = drawn > t.input.settings.query_limit;
         show(t, "geometry", passes, drawn, record);
         if (left) blend_under(t);
         show(t, "full_screen", passes, {}, record);  // blended for an empty layer, too, which is neutral
@@ -130,7 +130,7 @@ Job front_to_back_job(const JobInput& input) {
     const auto t = std::make_shared<PeelTargets>(input);
     return {"front_to_back", [t](Image& picture, int max_passes, Record* record) {
                 // A port that loses its last layer knows the number of layers: the empty pass is not one.
-                const int lost = t->input.way.passes_left_out;
+                const int lost = t->input.settings.passes_left_out;
                 if (lost > 0) max_passes = front_to_back(*t, max_passes, picture, nullptr) - 1 - lost;
                 return front_to_back(*t, max_passes, picture, record);
             }};

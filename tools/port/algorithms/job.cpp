@@ -44,14 +44,14 @@ Job make_job(const std::string& name, const JobInput& input) {
     const auto found = std::ranges::find(makers(), name, &Maker::name);
     if (found == makers().end()) throw std::invalid_argument("no algorithm " + name);
     JobInput chosen = input;
-    if (input.way.depth != nullptr) chosen.formats.depth = *input.way.depth;
+    if (input.settings.depth != nullptr) chosen.formats.depth = *input.settings.depth;
     return found->make(chosen);
 }
 
 void show_pass(Record* record, Size size, const std::string& kind, std::initializer_list<NamedTexture> targets,
                std::optional<std::uint64_t> query) {
     if (record == nullptr) return;
-    PassShown& shown = record->passes.emplace_back(PassShown{kind, {}, query});
+    PassReport& shown = record->passes.emplace_back(PassReport{kind, {}, query});
     for (const NamedTexture& target : targets)
         shown.targets.push_back({target.name, read_back(target.texture, target.format, size)});
 }

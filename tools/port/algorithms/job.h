@@ -21,7 +21,7 @@ struct JobInput {
     Size size;
     TargetFormats formats{};
     std::array<float, 4> background{0, 0, 0, 1};
-    Way way{};
+    PortSettings settings{};
 };
 
 struct NamedTexture {
@@ -35,7 +35,7 @@ struct NamedPicture {
 };
 
 // Every target after a pass, as read back, and the result of the pass's query.
-struct PassShown {
+struct PassReport {
     std::string kind;  // geometry or full_screen
     std::vector<NamedPicture> targets;
     std::optional<std::uint64_t> query;
@@ -43,7 +43,7 @@ struct PassShown {
 
 // The recorded passes and layers of a run.
 struct Record {
-    std::vector<PassShown> passes{};
+    std::vector<PassReport> passes{};
     std::vector<std::array<Image, 2>> layers{};  // colour and depth, nearest first
 };
 // Does nothing without a record.

@@ -108,8 +108,9 @@ struct ListTargets {
           append{in.scene.make_program(stored_text(in.formats.depth) + opaque.hidden_text() + storage(in) + append_text,
                                        {"opaque_depth"})},
           sort{make_full_screen_program(
-              storage(in) + fmt::format(sort_text, in.way.background_used ? "texelFetch(behind_target, pixel, 0).rgb"
-                                                                          : "vec3(0.0)"),
+              storage(in) + fmt::format(sort_text, in.settings.background_used
+                                                       ? "texelFetch(behind_target, pixel, 0).rgb"
+                                                       : "vec3(0.0)"),
               {"behind_target"})} {}
 
   private:

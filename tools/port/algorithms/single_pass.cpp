@@ -59,22 +59,22 @@ struct AverageTargets {
 
     AverageTargets(const JobInput& in, const std::string& power)
         : input{in},
-          sums_format{in.way.sums[0] != nullptr     ? *in.way.sums[0]
-                      : in.formats.color == rgba32f ? rgba32f
-                                                    : rgba16f},
-          count_format{in.way.sums[1] != nullptr     ? *in.way.sums[1]
-                       : in.formats.color == rgba32f ? r32f
-                                                     : r16f},
+          sums_format{in.settings.sums[0] != nullptr ? *in.settings.sums[0]
+                      : in.formats.color == rgba32f  ? rgba32f
+                                                     : rgba16f},
+          count_format{in.settings.sums[1] != nullptr ? *in.settings.sums[1]
+                       : in.formats.color == rgba32f  ? r32f
+                                                      : r16f},
           opaque{in, d32f},
           sums{make_texture(sums_format, in.size)},
           count{make_texture(count_format, in.size)},
           result{make_texture(in.formats.color, in.size)},
           accumulate{make_framebuffer({sums.name(), count.name()}, opaque.depth())},
           finish{make_framebuffer({result.name()})},
-          accumulate_program{in.scene.make_program(fmt::format(accumulate_text, in.way.premultiplied))},
+          accumulate_program{in.scene.make_program(fmt::format(accumulate_text, in.settings.premultiplied))},
           finish_program{make_full_screen_program(
               fmt::format(average_text,
-                          in.way.background_used ? "texelFetch(behind_target, pixel, 0).rgb" : "vec3(0.0)", power),
+                          in.settings.background_used ? "texelFetch(behind_target, pixel, 0).rgb" : "vec3(0.0)", power),
               {"sums", "count", "behind_target"})} {}
 };
 
@@ -139,7 +139,7 @@ Job depth_job(const JobInput& input) {
                 glBindFramebuffer(GL_FRAMEBUFFER, t->framebuffer.name());
                 glDisable(GL_BLEND);
                 glEnable(GL_DEPTH_TEST);
-                glDepthFunc(t->input.way.depth_func);
+                glDepthFunc(t->input.settings.depth_func);
                 glClearBufferfv(GL_DEPTH, 0, &far_plane);
                 glUseProgram(t->program.name());
                 // With a query, as peels have: without one softpipe steps D16 along its spans

@@ -58,9 +58,10 @@ struct Resolve {
           result{make_texture(in.formats.color, in.size)},
           framebuffer{make_framebuffer({result.name()})},
           program{make_full_screen_program(
-              functions + fmt::format(resolve_text,
-                                      in.way.background_used ? "texelFetch(behind_target, pixel, 0).rgb" : "vec3(0.0)",
-                                      through),
+              functions +
+                  fmt::format(resolve_text,
+                              in.settings.background_used ? "texelFetch(behind_target, pixel, 0).rgb" : "vec3(0.0)",
+                              through),
               {"sums", "left_target", "behind_target"})} {}
 
     void draw(GLuint sums, GLuint left, GLuint behind, Image& picture, Record* record) const {

@@ -176,11 +176,11 @@ int run_all(const Options& options) {
     const rasterizer::TriangleSoup soup = clip_vertices(subject);
     const HeadlessContext context(options.driver, options.threads);
     std::fprintf(stderr, "%s\n", context.renderer().c_str());
-    const Way way = way_with(options.mistakes);
-    set_window(subject.size, way, GL_NEGATIVE_ONE_TO_ONE);
-    const GpuScene scene(mesh_of(soup), subject.size, way);
+    const PortSettings settings = settings_with(options.mistakes);
+    set_window(subject.size, settings, GL_NEGATIVE_ONE_TO_ONE);
+    const GpuScene scene(mesh_of(soup), subject.size, settings);
     for (const std::string& name : options.algorithms) {
-        const JobInput input{.scene = scene, .size = subject.size, .formats = options.formats, .way = way};
+        const JobInput input{.scene = scene, .size = subject.size, .formats = options.formats, .settings = settings};
         run(make_job(name, input), options, subject, profile);
     }
     // --coverage alone writes the counts; a difference is a failure only with --check.

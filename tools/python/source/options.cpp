@@ -23,23 +23,23 @@ Enum named(const std::string& field, const py::handle& value) {
 }
 
 // The settings that keywords can change: the options of a frame, and the origin of the device's window.
-struct Told {
+struct KeywordSettings {
     RenderOptions options;
     std::optional<pipeline::Origin> origin;
 };
-using Setter = std::function<void(Told&, const std::string& field, const py::handle& value)>;
+using Setter = std::function<void(KeywordSettings&, const std::string& field, const py::handle& value)>;
 
 template <auto member>
 Setter number() {
-    return [](Told& told, const std::string&, const py::handle& value) {
-        using Number = std::remove_reference_t<decltype(told.options.*member)>;
-        told.options.*member = value.cast<Number>();
+    return [](KeywordSettings& settings, const std::string&, const py::handle& value) {
+        using Number = std::remove_reference_t<decltype(settings.options.*member)>;
+        settings.options.*member = value.cast<Number>();
     };
 }
 template <auto member, class Enum>
 Setter choice() {
-    return [](Told& told, const std::string& field, const py::handle& value) {
-        told.options.*member = named<Enum>(field, value);
+    return [](KeywordSettings& settings, const std::string& field, const py::handle& value) {
+        settings.options.*member = named<Enum>(field, value);
     };
 }
 
@@ -66,12 +66,12 @@ const std::map<std::string, Setter>& setters() {
         {"effects", choice<&O::effects, pipeline::Effects>()},
         {"audit", number<&O::audit>()},
         {"background",
-         [](Told& told, const std::string&, const py::handle& value) {
+         [](KeywordSettings& settings, const std::string&, const py::handle& value) {
              const auto c = value.cast<std::array<float, 4>>();
-             told.options.background = {c[0], c[1], c[2], c[3]};
+             settings.options.background = {c[0], c[1], c[2], c[3]};
          }},
-        {"origin", [](Told& told, const std::string& field,
-                      const py::handle& value) { told.origin = named<pipeline::Origin>(field, value); }},
+        {"origin", [](KeywordSettings& settings, const std::string& field,
+                      const py::handle& value) { settings.origin = named<pipeline::Origin>(field, value); }},
     };
     return all;
 }
@@ -79,7 +79,7 @@ const std::map<std::string, Setter>& setters() {
 }  // namespace
 
 RenderOptions options_of(const py::kwargs& keywords, DeviceProfile& profile) {
-    Told told;
+    KeywordSettings settings;
     for (const auto& [key, value] : keywords) {
         const auto name = key.cast<std::string>();
         const auto found = setters().find(name);
@@ -90,13 +90,13 @@ RenderOptions options_of(const py::kwargs& keywords, DeviceProfile& profile) {
                                  scenes::quoted_with_suggestion(name, names));
         }
         try {
-            found->second(told, name, value);
+            found->second(settings, name, value);
         } catch (const py::cast_error&) {
             throw InputError("options", name, "a value of its type", py::repr(value).cast<std::string>());
         }
     }
-    if (told.origin) profile = with_origin(profile, *told.origin);
-    return told.options;
+    if (settings.origin) profile = with_origin(profile, *settings.origin);
+    return settings.options;
 }
 
 }  // namespace strata::python

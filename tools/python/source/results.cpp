@@ -91,7 +91,7 @@ void bind_layers(py::module_& module) {
         const Asked asked{algorithm, profile, keywords};
         const auto found = unlocked([&] { return passes(scene, asked.algorithm, asked.profile, asked.options); });
         py::list all;
-        for (const oracle::PassShown& pass : *found) {
+        for (const oracle::PassReport& pass : *found) {
             py::dict targets, one;
             for (const oracle::NamedImage& target : pass.targets)
                 targets[py::str(target.name)] = as_array(found, target.image);

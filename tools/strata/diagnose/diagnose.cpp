@@ -13,9 +13,9 @@
 #include "scenes/files/profile_json.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/mistakes/diagnosis_report.h"
+#include "tools/oracle/mistakes/distinguishing_scene.h"
 #include "tools/oracle/mistakes/machine_options.h"
 #include "tools/oracle/mistakes/scenes_diagnosis.h"
-#include "tools/oracle/mistakes/telling.h"
 #include "tools/oracle/pack/manifest_value.h"
 #include "tools/oracle/pack/pack_pictures.h"
 #include "tools/oracle/verdict/form.h"
@@ -89,15 +89,15 @@ struct OpenCase {
     oracle::Picture candidate{};
     std::vector<oracle::PassPicture> passes{};
     Session session{};
-    std::optional<oracle::Laboratory> laboratory{};
+    std::optional<oracle::MistakeRenderer> mistake_renderer{};
     std::vector<oracle::Mistake> machine_options{};
-    std::optional<oracle::Lineup> lineup{};
+    std::optional<oracle::MistakeImages> mistake_images{};
 
     [[nodiscard]] const std::vector<oracle::PassPicture>* passes_or_null() const {
         return passes.empty() ? nullptr : &passes;
     }
     [[nodiscard]] oracle::Comparison comparison() const {
-        return oracle::compare(laboratory->right(), candidate, options.tolerances);
+        return oracle::compare(mistake_renderer->right(), candidate, options.tolerances);
     }
 };
 
@@ -113,7 +113,7 @@ std::vector<pipeline::DeviceProfile> more_profiles(const DiagnoseOptions& option
 
 std::vector<oracle::Mistake> machine_options(const OpenCase& opened) {
     const auto more = more_profiles(opened.options);
-    return oracle::machine_options(*opened.options.run.algorithms[0], opened.laboratory->right_run(), more);
+    return oracle::machine_options(*opened.options.run.algorithms[0], opened.mistake_renderer->right_run(), more);
 }
 
 std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given, Tried tried, const oracle::ShowProgress& progress) {
@@ -132,12 +132,12 @@ std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given, Tried tried, c
     options.run.render.width = opened->candidate.targets[0].width;
     options.run.render.height = opened->candidate.targets[0].height;
     opened->session = open_session(options.run);
-    opened->laboratory.emplace(
+    opened->mistake_renderer.emplace(
         oracle::RunInput{opened->session.scene.list, opened->session.view, opened->session.profile, options.run.render},
         algorithm, oracle::has_depth(opened->candidate) ? oracle::Depths::made : oracle::Depths::left_out,
         options.limit);
     if (tried == Tried::options_too) opened->machine_options = machine_options(*opened);
-    opened->lineup.emplace(*opened->laboratory, progress, opened->machine_options);
+    opened->mistake_images.emplace(*opened->mistake_renderer, progress, opened->machine_options);
     return opened;
 }
 
@@ -191,13 +191,13 @@ void ask_layers(const OpenCase& opened, oracle::Diagnosis& found) {
         const pipeline::DeviceProfile& given = opened.session.profile;
         if (auto other = right_by_other_profile({list, opened.session.view, given, options}, options.fragment_memory,
                                                 seen, layers.right.wrong_pixels, more_profiles(opened.options))) {
-            profile = other->sentence(given.name, layers.right.wrong_pixels.size());
+            profile = other->description(given.name, layers.right.wrong_pixels.size());
             layers = std::move(other->verdict);
         }
     }
     if (!layers.is_right && layers.explanations.empty() && layers.alpha.state != oracle::verdict::AlphaState::wrong)
         return;
-    found.structure = to_text(layers, list) + formed.sentence() + profile;
+    found.structure = to_text(layers, list) + formed.description() + profile;
     found.structure_json = to_json(layers, list);
     found.is_nearly = false;
     found.verdict = layers.is_right ? oracle::Verdict::right_structure : oracle::Verdict::unknown_mistake;
@@ -205,7 +205,7 @@ void ask_layers(const OpenCase& opened, oracle::Diagnosis& found) {
 
 // Finds the scene of the suite that distinguishes the remaining mistakes: those that produce the same picture, or the
 // best findings.
-void find_telling_scene(oracle::Diagnosis& found) {
+void find_distinguishing_scene(oracle::Diagnosis& found) {
     constexpr std::size_t most = 4;
     std::vector<const oracle::Mistake*> mistakes;
     const oracle::Finding& best = found.findings.front();
@@ -216,7 +216,7 @@ void find_telling_scene(oracle::Diagnosis& found) {
         for (const oracle::Finding& f : found.findings)
             if (f.mistakes.size() == 1 && f.explained > 0 && mistakes.size() < most) mistakes.push_back(f.mistakes[0]);
     }
-    found.telling = oracle::distinguishing_scene(mistakes);
+    found.distinguishing_scene = oracle::distinguishing_scene(mistakes);
 }
 
 // A picture of all samples.
@@ -237,15 +237,15 @@ int diagnose_one(const DiagnoseOptions& options) {
     Progress machines("wrong machines");
     const auto opened = open_case(options, Tried::options_too, shown_by(machines));
     Progress pairs("pairs of mistakes");
-    oracle::Diagnosis found =
-        opened->lineup->diagnose(opened->candidate, options.tolerances, shown_by(pairs), opened->passes_or_null());
+    oracle::Diagnosis found = opened->mistake_images->diagnose(opened->candidate, options.tolerances, shown_by(pairs),
+                                                               opened->passes_or_null());
     ask_layers(*opened, found);
-    find_telling_scene(found);
+    find_distinguishing_scene(found);
     const oracle::Comparison comparison = opened->comparison();
     if (found.verdict != oracle::Verdict::right) warn_of_other_command(*opened);
     if (!options.report.empty()) {
         const std::string command = canonical_command("render", opened->options.run, opened->options.run.algorithms);
-        const DiagnosisShown shown{found, comparison, opened->laboratory->right(), opened->candidate};
+        const DiagnosisShown shown{found, comparison, opened->mistake_renderer->right(), opened->candidate};
         write_page(options.report, diagnosis_page(command, shown));
     }
     print(options.json ? to_json(found, comparison) : to_text(found, comparison));
@@ -287,7 +287,7 @@ int diagnose_several(const DiagnoseOptions& options, const std::vector<std::stri
         take_pack_state(of_scene.run, of_scene.run.scene);
         opened.push_back(open_case(of_scene, Tried::mistakes, {}));
         const OpenCase& c = *opened.back();
-        scenes.push_back({name, &*c.lineup, &c.candidate, c.passes_or_null()});
+        scenes.push_back({name, &*c.mistake_images, &c.candidate, c.passes_or_null()});
         reports.push_back({name, c.comparison()});
         bar.show(0.5 * static_cast<double>(opened.size()) / static_cast<double>(packs.size()));
     }

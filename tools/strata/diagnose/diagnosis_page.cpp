@@ -24,8 +24,8 @@ void add_findings(PlainPage& page, const oracle::Diagnosis& found) {
                 {}};
     for (const oracle::Finding& f : found.findings) {
         if (table.rows.size() == most_findings) break;
-        table.rows.push_back({oracle::sentence_of(f.mistakes), std::to_string(f.agreeing), std::to_string(f.explained),
-                              std::to_string(f.contradicted)});
+        table.rows.push_back({oracle::description_of(f.mistakes), std::to_string(f.agreeing),
+                              std::to_string(f.explained), std::to_string(f.contradicted)});
     }
     page.table(table, "The best of what was tried, of " + std::to_string(found.pixels) + " pixels, " +
                           std::to_string(found.differing) + " of which differ from the right picture");
@@ -35,9 +35,9 @@ void add_findings(PlainPage& page, const oracle::Diagnosis& found) {
 // verdict; the other lines are the reasons. A line with deeper indentation continues the line before it.
 void add_lines(PlainPage& page, const std::string& text) {
     std::istringstream lines(text);
-    std::string sentence;
-    std::getline(lines, sentence);
-    page.sentence(sentence);
+    std::string description;
+    std::getline(lines, description);
+    page.lead(description);
     std::vector<std::string> reasons;
     std::size_t usual = std::string::npos;
     bool is_finding = false;

@@ -18,8 +18,8 @@ std::string list_mistakes(bool json) {
     nlohmann::ordered_json document = nlohmann::ordered_json::array();
     Table table{{{"mistake"}, {"a picture has it if its pixels are those of"}}, {}};
     for (const oracle::Mistake& mistake : oracle::catalogue()) {
-        table.rows.push_back({std::string(mistake.name), std::string(mistake.sentence)});
-        document.push_back({{"name", mistake.name}, {"sentence", mistake.sentence}});
+        table.rows.push_back({std::string(mistake.name), std::string(mistake.description)});
+        document.push_back({{"name", mistake.name}, {"sentence", mistake.description}});
     }
     return json ? document.dump(2) + '\n' : to_text(table);
 }

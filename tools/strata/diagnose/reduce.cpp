@@ -155,7 +155,7 @@ int reduce(const ReduceOptions& options) {
         return 1;
     }
     oracle::write_pack(found->scene, options.output);
-    print(found->sentence() + '\n');
+    print(found->description() + '\n');
     return 0;
 }
 

@@ -75,7 +75,7 @@ void wait_without_reaping(pid_t child) {
 EndOfCommand run_in_shell(const std::string& line, double seconds) {
     const Pipe go;
     const pid_t child = start(line, go);
-    scenes::end_group_when_interrupted(child);
+    scenes::kill_group_on_interrupt(child);
     go.say_go();
     bool is_late = false;
     try {
@@ -85,7 +85,7 @@ EndOfCommand run_in_shell(const std::string& line, double seconds) {
     } catch (const std::system_error&) {  // no thread is available: run without a time limit
         wait_without_reaping(child);
     }
-    scenes::end_group_when_interrupted(0);
+    scenes::kill_group_on_interrupt(0);
     ::kill(-child, SIGKILL);
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {

@@ -11,7 +11,7 @@ namespace {
 
 struct Group {
     std::string title;
-    Shown shown;
+    HelpDetail shown;
     std::vector<std::string> names;
 };
 
@@ -19,33 +19,35 @@ struct Group {
 const std::vector<Group>& groups() {
     static const std::vector<Group> all{
         {"What is drawn",
-         Shown::usual,
+         HelpDetail::usual,
          {"scene", "color-space", "no-light", "algorithm", "profile", "origin", "depth-format", "from"}},
-        {"The view", Shown::usual, {"size", "camera", "orbit", "alpha", "background", "samples", "sample", "resolve"}},
+        {"The view",
+         HelpDetail::usual,
+         {"size", "camera", "orbit", "alpha", "background", "samples", "sample", "resolve"}},
         {"Results",
-         Shown::usual,
+         HelpDetail::usual,
          {"output", "format", "stats", "no-audit", "json", "csv", "digests", "expect", "channels", "report", "map",
           "region"}},
-        {"Messages", Shown::usual, {"quiet", "verbose", "color"}},
+        {"Messages", HelpDetail::usual, {"quiet", "verbose", "color"}},
         {"Depths and positions, rarely needed",
-         Shown::all,
+         HelpDetail::all,
          {"depth-path", "reference-path", "compare-epsilon", "no-quantize-reference", "vertex-path", "polygon-offset",
           "depth-order", "clip-depth", "depth-range", "scissor"}},
         {"Algorithms, rarely needed",
-         Shown::all,
+         HelpDetail::all,
          {"color-format", "result-format", "back-format", "average-count", "termination", "max-passes", "formulation",
           "sorted", "sort", "mistake"}},
         {"Single algorithms, rarely needed",
-         Shown::all,
+         HelpDetail::all,
          {"weight", "nodes", "tail", "pixel-nodes", "frame-nodes", "overflow", "moments", "moment-bias",
           "overestimation", "stochastic-samples", "stochastic-seed"}},
         {"Samples of a pixel, rarely needed",
-         Shown::all,
+         HelpDetail::all,
          {"shading", "interpolate", "load-sample", "composite-sample", "alpha-to-coverage", "sample-coverage",
           "sample-coverage-invert", "sample-mask"}},
-        {"Files of --from, rarely needed", Shown::all, {"files-in"}},
+        {"Files of --from, rarely needed", HelpDetail::all, {"files-in"}},
         {"How it is run, to the same bits",
-         Shown::all,
+         HelpDetail::all,
          {"execution", "counters", "simd", "effects", "fragment-memory", "max-memory", "tile", "threads"}},
     };
     return all;
@@ -69,13 +71,13 @@ std::vector<CLI::App*> commands_of(CLI::App& root) {
     return root.get_subcommands([](CLI::App*) { return true; });
 }
 
-std::string help_of(CLI::App& command, Shown shown) {
+std::string help_of(CLI::App& command, HelpDetail shown) {
     std::size_t hidden = 0;
     for (CLI::Option* option : command.get_options()) {
         if (option->get_positional() || option->get_group().empty()) continue;
         const Group* group = group_of(*option);
         if (group == nullptr) continue;
-        const bool is_hidden = group->shown == Shown::all && shown == Shown::usual;
+        const bool is_hidden = group->shown == HelpDetail::all && shown == HelpDetail::usual;
         option->group(is_hidden ? "" : group->title);
         hidden += is_hidden ? 1 : 0;
     }

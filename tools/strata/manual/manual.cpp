@@ -52,7 +52,7 @@ Command add_help(CLI::App& root) {
     app->footer(footer("  strata help render\n  strata help render all\n"));
     return {app, [&root, about] {
                 CLI::App& command = command_named(root, about->command);
-                print(help_of(command, about->amount.empty() ? Shown::usual : Shown::all));
+                print(help_of(command, about->amount.empty() ? HelpDetail::usual : HelpDetail::all));
                 return 0;
             }};
 }

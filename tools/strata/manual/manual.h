@@ -10,10 +10,10 @@
 namespace strata::tools {
 
 // Whether --help lists the rare options, too. An option is rare if a first picture does not need it.
-enum class Shown : std::uint8_t { usual, all };
+enum class HelpDetail : std::uint8_t { usual, all };
 
 // The text of --help: options in groups, and the number of options that are not listed.
-[[nodiscard]] std::string help_of(CLI::App& command, Shown shown);
+[[nodiscard]] std::string help_of(CLI::App& command, HelpDetail shown);
 
 // The commands of the program, in the order in which they were added.
 [[nodiscard]] std::vector<CLI::App*> commands_of(CLI::App& root);

@@ -49,7 +49,7 @@ scenes::DeepFragments as_deep(const std::vector<pipeline::CapturedFragment>& fra
 // Moves the layers out of the result, from near to far. An algorithm that peels both ends returns them in the order of
 // its passes, possibly with empty ones at the end; its layers are named by end and pass, and the layer behind
 // everything is last.
-std::vector<scenes::OutputColor> take_layers(const Finished& finished) {
+std::vector<scenes::OutputColor> take_layers(const CompletedRun& finished) {
     std::vector<scenes::OutputColor> front, back;
     for (auto& layer : finished.result.frame.layers) {
         const bool is_back = layer.side == pipeline::Side::back;
@@ -75,7 +75,7 @@ pipeline::Image contact_sheet(const std::vector<scenes::OutputColor>& layers) {
 }
 
 // Writes the layers (-o) and the fragments (--deep) of one algorithm.
-void write_layers(const LayersOptions& options, const Finished& finished) {
+void write_layers(const LayersOptions& options, const CompletedRun& finished) {
     const scenes::Attributes attributes = attributes_of("layers", options.run, finished);
     if (!options.run.output.empty()) {
         std::vector<scenes::OutputColor> layers = take_layers(finished);
@@ -104,13 +104,14 @@ void write_layers(const LayersOptions& options, const Finished& finished) {
 }
 
 int layers(LayersOptions& options) {
-    check_outputs({{"-o", options.run.output, {".exr", ".png"}, Piped::possibly}, {"--deep", options.deep, {".exr"}}});
+    check_outputs(
+        {{"-o", options.run.output, {".exr", ".png"}, StandardOutput::possibly}, {"--deep", options.deep, {".exr"}}});
     if (options.run.output.empty() && options.deep.empty()) {
         throw CLI::ValidationError("-o is missing: the file for the layers; or --deep FILE, for the fragments");
     }
     options.run.resolves = options.deep.empty();
     options.run.render.keep_layers = true;
-    return run_algorithms(options.run, [&](const Finished& finished) { write_layers(options, finished); });
+    return run_algorithms(options.run, [&](const CompletedRun& finished) { write_layers(options, finished); });
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace strata::tools {
 
 namespace {
 
-Columns columns_of_frame(const RunOptions& options, const Finished& finished) {
+Columns columns_of_frame(const RunOptions& options, const CompletedRun& finished) {
     const auto pixels =
         static_cast<std::size_t>(options.render.width) * static_cast<std::size_t>(options.render.height);
     return columns_of(finished.renderer.fragments(*peeling::find_algorithm("a_buffer")).all, pixels);
@@ -47,7 +47,7 @@ std::vector<double> ties(const Columns& columns) {
 }
 
 // The number of fragments of each pixel whose code is equal to that of the pixel's opaque surface.
-std::vector<double> opaque_ties(const RunOptions& options, const Finished& finished) {
+std::vector<double> opaque_ties(const RunOptions& options, const CompletedRun& finished) {
     const peeling::FrameFragments found = finished.renderer.fragments(finished.algorithm);
     const bool is_reversed = options.render.raster.depth_order == rasterizer::DepthOrder::greater;
     const std::uint32_t far = is_reversed ? 0 : rasterizer::max_code(finished.renderer.depth_format());
@@ -57,7 +57,7 @@ std::vector<double> opaque_ties(const RunOptions& options, const Finished& finis
     return numbers;
 }
 
-std::vector<double> errors(const RunOptions& options, const Finished& finished) {
+std::vector<double> errors(const RunOptions& options, const CompletedRun& finished) {
     const peeling::RenderResult exact = finished.renderer.render(*peeling::find_algorithm("a_buffer"));
     if (exact.refusal) throw pipeline::Refused{finished.session.profile, *exact.refusal};
     const pipeline::Image difference = peeling::difference(finished.result.frame.color, exact.frame.color);
@@ -72,7 +72,7 @@ std::vector<double> errors(const RunOptions& options, const Finished& finished) 
     return numbers;
 }
 
-std::vector<double> numbers_of(Map map, const RunOptions& options, const Finished& finished) {
+std::vector<double> numbers_of(Map map, const RunOptions& options, const CompletedRun& finished) {
     switch (map) {
         case Map::depth_complexity: return complexity(columns_of_frame(options, finished));
         case Map::ties: return ties(columns_of_frame(options, finished));
@@ -90,7 +90,7 @@ std::uint32_t heat(double share, int channel) {
 
 }  // namespace
 
-MapPicture map_of(Map map, const RunOptions& options, const Finished& finished) {
+MapPicture map_of(Map map, const RunOptions& options, const CompletedRun& finished) {
     const int width = options.render.width, height = options.render.height;
     MapPicture picture{numbers_of(map, options, finished), 0, {pipeline::Format::rgba8, width, height}};
     picture.most = *std::max_element(picture.numbers.begin(), picture.numbers.end());

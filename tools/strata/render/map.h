@@ -22,7 +22,7 @@ struct MapPicture {
     pipeline::Image image;  // rgba8
 };
 
-[[nodiscard]] MapPicture map_of(Map map, const RunOptions& options, const Finished& finished);
+[[nodiscard]] MapPicture map_of(Map map, const RunOptions& options, const CompletedRun& finished);
 
 // "ties: black is 0, white is 6".
 [[nodiscard]] std::string legend_of(Map map, const MapPicture& picture);

@@ -5,7 +5,7 @@
 
 #include "scenes/files/image_io.h"
 #include "tools/oracle/mistakes/catalogue.h"
-#include "tools/oracle/mistakes/laboratory.h"
+#include "tools/oracle/mistakes/mistake_renderer.h"
 #include "tools/strata/command.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
@@ -27,7 +27,7 @@ struct RenderCommand {
 };
 
 // A map is written instead of the picture, and its recorded command renders the map again.
-void write_map(const RunOptions& options, Map map, const Finished& finished) {
+void write_map(const RunOptions& options, Map map, const CompletedRun& finished) {
     const MapPicture picture = map_of(map, options, finished);
     scenes::Attributes attributes = attributes_of("render", options, finished);
     attributes["command"] += " --map " + name_of(map_names(), map);
@@ -37,7 +37,7 @@ void write_map(const RunOptions& options, Map map, const Finished& finished) {
 }
 
 // Without -o no picture is written: the statistics are the result.
-void write_picture(const RunOptions& options, const Finished& finished) {
+void write_picture(const RunOptions& options, const CompletedRun& finished) {
     if (options.output.empty()) return;
     scenes::write_image(path_for(options.output, options, finished.algorithm),
                         {.color = finished.result.frame.color,
@@ -70,9 +70,9 @@ int render_mistaken(RunOptions& options, const std::vector<const oracle::Mistake
     if (options.algorithms.size() != 1) throw CLI::ValidationError("--mistake takes one algorithm");
     if (options.output.empty()) throw CLI::ValidationError("--mistake needs -o FILE");
     const Session session = open_session(options);
-    const oracle::Laboratory laboratory{{session.scene.list, session.view, session.profile, options.render},
-                                        *options.algorithms[0]};
-    const auto picture = laboratory.with(mistakes);
+    const oracle::MistakeRenderer mistake_renderer{{session.scene.list, session.view, session.profile, options.render},
+                                                   *options.algorithms[0]};
+    const auto picture = mistake_renderer.with(mistakes);
     if (!picture)
         throw CLI::ValidationError("--mistake",
                                    "expected a mistake that this scene, algorithm and profile have room "
@@ -90,12 +90,12 @@ int render_mistaken(RunOptions& options, const std::vector<const oracle::Mistake
 int render(RenderCommand& command) {
     RunOptions& options = command.run;
     const std::vector<std::string> pictures{".exr", ".png"}, map_endings{".png"};
-    check_outputs({{"-o", options.output, command.map ? map_endings : pictures, Piped::possibly},
+    check_outputs({{"-o", options.output, command.map ? map_endings : pictures, StandardOutput::possibly},
                    {"--report", command.report, {".html"}}});
     if (command.map && options.output.empty()) throw CLI::ValidationError("--map needs -o FILE.png");
     options.resolves = !command.map && command.mistakes.empty() && command.report.empty();
     if (!command.mistakes.empty()) return render_mistaken(options, command.mistakes);
-    const int status = run_algorithms(options, [&](const Finished& finished) {
+    const int status = run_algorithms(options, [&](const CompletedRun& finished) {
         command.map ? write_map(options, *command.map, finished) : write_picture(options, finished);
     });
     if (status == 0 && !command.report.empty()) write_report(options, command.report);

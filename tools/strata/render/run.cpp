@@ -78,7 +78,7 @@ void warn_of_opaque(const RunOptions& options, const scenes::Scene& scene) {
 // For --sample.
 void take_sample(RunOptions& options, const pipeline::DeviceProfile& profile) {
     if (const auto lacking = pipeline::check_multisampling(profile, options.samples))
-        throw CLI::ValidationError("--samples", lacking->sentence(profile));
+        throw CLI::ValidationError("--samples", lacking->message(profile));
     pipeline::set_sample(options.render.raster, profile.sample_positions, options.samples,
                          static_cast<std::size_t>(*options.sample));
 }
@@ -126,7 +126,7 @@ Session open_session(RunOptions& options) {
     const scenes::ClipConvention own = options.takes_own_view ? options.view_convention : scenes::ClipConvention{};
     const rasterizer::RasterState& raster = options.render.raster;
     session.view =
-        scenes::as_seen_under(find_view(options, session.scene), own, {raster.clip_depth, raster.depth_order});
+        scenes::with_clip_convention(find_view(options, session.scene), own, {raster.clip_depth, raster.depth_order});
     check_sorted(options, session.scene);
     // The option's value is in sRGB, not premultiplied; the frame blends premultiplied colours in its own colour space.
     if (options.background)
@@ -170,7 +170,7 @@ RunSummary run_one(const Session& session, const peeling::Algorithm& algorithm, 
     const bool is_done = result.outcome == peeling::Outcome::done;
     if (is_done) write({session, algorithm, renderer.sample(0), result});
     RunSummary summary = summarize(algorithm, std::move(result));
-    if (is_done) say_detail(path_sentence(summary));
+    if (is_done) say_detail(path_text(summary));
     return summary;
 }
 
@@ -203,7 +203,7 @@ int exit_status(const std::vector<RunSummary>& runs, const pipeline::DeviceProfi
         if (run.result.outcome == peeling::Outcome::done)
             status = 0;
         else
-            say_error(run.algorithm->name + ": " + run.result.refusal->sentence(profile));
+            say_error(run.algorithm->name + ": " + run.result.refusal->message(profile));
     }
     return status;
 }
@@ -213,7 +213,7 @@ int exit_status(const std::vector<RunSummary>& runs, const pipeline::DeviceProfi
 int run_algorithms(RunOptions& options, const Writer& write) {
     complete(options);
     check_outputs({{"--stats", scenes::is_standard_output(options.stats) ? "" : options.stats, {".json"}}});
-    scenes::tell_when_interrupted(undone(options, 0));
+    scenes::set_interrupt_message(undone(options, 0));
     const Session session = open_session(options);
     for (const peeling::Algorithm* algorithm : options.algorithms) check_memory(options, session, *algorithm);
     // One renderer is used for all algorithms, so geometry is transformed and set up once.
@@ -224,10 +224,10 @@ int run_algorithms(RunOptions& options, const Writer& write) {
                                        .composites = options.composite_sample});
     std::vector<RunSummary> runs;
     for (const peeling::Algorithm* algorithm : options.algorithms) {
-        scenes::tell_when_interrupted(undone(options, runs.size()));
+        scenes::set_interrupt_message(undone(options, runs.size()));
         runs.push_back(run_one(session, *algorithm, renderer, write));
     }
-    scenes::tell_when_interrupted("");
+    scenes::set_interrupt_message("");
     report(options, runs, session.profile.name);
     return exit_status(runs, session.profile);
 }
@@ -243,14 +243,14 @@ scenes::ImageFile kind_of(const RunOptions& options, scenes::ImageFile fallback)
     return scenes::image_file(options.output);
 }
 
-scenes::Attributes attributes_of(const std::string& verb, const RunOptions& options, const Finished& finished) {
+scenes::Attributes attributes_of(const std::string& verb, const RunOptions& options, const CompletedRun& finished) {
     const auto one_line = [](const std::string& json) { return nlohmann::ordered_json::parse(json).dump(); };
     return {{"command", canonical_command(verb, options, finished.algorithm)},
             {"profile", one_line(scenes::to_json(finished.session.profile))},
             {"camera", one_line(scenes::to_json(finished.session.view))}};
 }
 
-bool Output::is_piped() const { return piped == Piped::possibly && scenes::is_standard_output(path); }
+bool Output::is_piped() const { return piped == StandardOutput::possibly && scenes::is_standard_output(path); }
 
 namespace {
 

@@ -31,14 +31,14 @@ struct Session {
 [[nodiscard]] Session open_session(RunOptions& options);
 
 // One algorithm that has run. The references are valid only while the Writer runs.
-struct Finished {
+struct CompletedRun {
     const Session& session;
     const peeling::Algorithm& algorithm;
     peeling::Renderer& renderer;    // of the first sample
     peeling::RenderResult& result;  // the writer may move its layers out
 };
 
-using Writer = std::function<void(const Finished&)>;  // writes one algorithm's files
+using Writer = std::function<void(const CompletedRun&)>;  // writes one algorithm's files
 
 // Returns the exit status: 0 if at least one algorithm ran, else 2 with the refusals on standard error.
 [[nodiscard]] int run_algorithms(RunOptions& options, const Writer& write);
@@ -52,14 +52,14 @@ using Writer = std::function<void(const Finished&)>;  // writes one algorithm's 
 
 // The attributes of every file: command, profile, camera. The writer of the file adds digests and formats.
 [[nodiscard]] scenes::Attributes attributes_of(const std::string& verb, const RunOptions& options,
-                                               const Finished& finished);
+                                               const CompletedRun& finished);
 
-// An output file of a command; an empty path means none. `Piped` says whether it may be "-", standard output.
-enum class Piped : std::uint8_t { never, possibly };
+// An output file of a command; an empty path means none. `StandardOutput` says whether it may be "-", standard output.
+enum class StandardOutput : std::uint8_t { never, possibly };
 struct Output {
     std::string option, path;
     std::vector<std::string> endings;
-    Piped piped = Piped::never;
+    StandardOutput piped = StandardOutput::never;
     [[nodiscard]] bool is_piped() const;
 };
 

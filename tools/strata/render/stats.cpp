@@ -98,7 +98,7 @@ std::vector<std::string> cells(const RunSummary& run, const RunContext& context)
 
 }  // namespace
 
-std::string path_sentence(const RunSummary& run) {
+std::string path_text(const RunSummary& run) {
     const pipeline::Work& work = run.result.frame.work;
     return fmt::format("{}: {}{}", run.algorithm->name, name_of(work.path), work.why.empty() ? "" : ": " + work.why);
 }

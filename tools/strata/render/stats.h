@@ -32,7 +32,7 @@ struct RunContext {
 [[nodiscard]] nlohmann::ordered_json to_row(const RunSummary& run, const RunContext& context);
 
 // A sentence that says how the fragments were obtained, and why a faster path was not used.
-[[nodiscard]] std::string path_sentence(const RunSummary& run);
+[[nodiscard]] std::string path_text(const RunSummary& run);
 
 // The document of --stats (scenes/reference/reports.md 1), with its newline.
 [[nodiscard]] std::string to_json(const std::vector<RunSummary>& runs, const RunContext& context);

@@ -37,7 +37,7 @@ PlainPage::PlainPage(const std::string& title, const std::string& subtitle) : ti
 void PlainPage::heading(const std::string& text) { body_ += "<h2>" + element_text(text) + "</h2>\n"; }
 void PlainPage::paragraph(const std::string& text) { body_ += "<p>" + element_text(text) + "</p>\n"; }
 
-void PlainPage::sentence(const std::string& text) { body_ += "<p class=\"lead\">" + element_text(text) + "</p>\n"; }
+void PlainPage::lead(const std::string& text) { body_ += "<p class=\"lead\">" + element_text(text) + "</p>\n"; }
 
 void PlainPage::items(const std::vector<std::string>& texts) {
     if (texts.empty()) return;

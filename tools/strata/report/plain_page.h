@@ -21,7 +21,7 @@ class PlainPage {
   public:
     PlainPage(const std::string& title, const std::string& subtitle);
 
-    void sentence(const std::string& text);  // the main result, at the top
+    void lead(const std::string& text);  // the main result, at the top
     void heading(const std::string& text);
     void paragraph(const std::string& text);
     void items(const std::vector<std::string>& texts);  // a list with bullets

@@ -60,7 +60,7 @@ int report(ReportOptions& command, bool has_size) {
     if (options.output.empty()) throw CLI::ValidationError("-o is missing: the page, FILE.html, or a folder for it");
     const rasterizer::Rect region = region_of(command);
     const std::filesystem::path path = page_of(options.output);
-    scenes::tell_when_interrupted("not written: " + path.string());
+    scenes::set_interrupt_message("not written: " + path.string());
     const Session session = open_session(options);
     const ReportData data = report_data(options, session, region);
     for (const auto& entry : data.document["algorithms"])
@@ -69,11 +69,11 @@ int report(ReportOptions& command, bool has_size) {
     const std::string page = checked_page(data);
     if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
     scenes::write_file(path.string(), page);
-    scenes::tell_when_interrupted("");
+    scenes::set_interrupt_message("");
     if (is_quiet()) return 0;
     print(path.string() + ": " + std::to_string((page.size() + 1023) / 1024) +
           " KiB, opens in any browser, needs no network\n");
-    for (const auto& sentence : data.document["left_out"]) print("left out: " + sentence.get<std::string>() + "\n");
+    for (const auto& message : data.document["left_out"]) print("left out: " + message.get<std::string>() + "\n");
     return 0;
 }
 
@@ -82,11 +82,11 @@ int report(ReportOptions& command, bool has_size) {
 void write_report(RunOptions& options, const std::string& path) {
     const int width = std::min(options.render.width, most_side), height = std::min(options.render.height, most_side);
     const int x = (options.render.width - width) / 2, y = (options.render.height - height) / 2;
-    scenes::tell_when_interrupted("not written: " + path);
+    scenes::set_interrupt_message("not written: " + path);
     options.render.counters = true;
     const Session session = open_session(options);
     scenes::write_file(path, checked_page(report_data(options, session, {x, y, x + width, y + height})));
-    scenes::tell_when_interrupted("");
+    scenes::set_interrupt_message("");
 }
 
 Command add_report(CLI::App& root) {

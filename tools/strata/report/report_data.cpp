@@ -153,7 +153,7 @@ class Builder {
         return {session_.scene.list, session_.view, session_.profile, options_.render};
     }
 
-    void leave_out(const std::string& sentence) { data_.document["left_out"].push_back(sentence); }
+    void leave_out(const std::string& message) { data_.document["left_out"].push_back(message); }
 
     // Collects all fragments with the A-buffer, which every profile can run; depths are exact, in the profile's depth
     // format.
@@ -198,7 +198,7 @@ class Builder {
         entry["command"] = canonical_command("render", options_, algorithm);
         const peeling::RenderResult result = renderer_.render(algorithm, [&](double share) { progress.show(share); });
         if (result.outcome == peeling::Outcome::refused) {
-            entry["refusal"] = result.refusal->sentence(session_.profile);
+            entry["refusal"] = result.refusal->message(session_.profile);
             data_.document["algorithms"].push_back(std::move(entry));
             return;
         }

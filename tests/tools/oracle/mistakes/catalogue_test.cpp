@@ -12,15 +12,15 @@ using namespace strata;
 using namespace strata::oracle;
 
 TEST_CASE("mistakes have unique names and sentences and are found by name") {
-    std::set<std::string_view> names, sentences;
+    std::set<std::string_view> names, descriptions;
     for (const Mistake& mistake : catalogue()) {
         names.insert(mistake.name);
-        sentences.insert(mistake.sentence);
+        descriptions.insert(mistake.description);
         CHECK(find_mistake(mistake.name) == &mistake);
     }
     CHECK(catalogue().size() >= 40);
     CHECK(names.size() == catalogue().size());
-    CHECK(sentences.size() == catalogue().size());
+    CHECK(descriptions.size() == catalogue().size());
     CHECK(find_mistake("no_mistake") == nullptr);
 }
 

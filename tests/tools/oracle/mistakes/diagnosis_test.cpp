@@ -10,7 +10,7 @@
 
 using namespace strata;
 using namespace strata::oracle;
-using strata::test::Bench;
+using strata::test::SceneFixture;
 
 namespace {
 
@@ -34,9 +34,9 @@ std::vector<std::string_view> names_of(const Finding& finding) {
 }  // namespace
 
 TEST_CASE("the correct picture is diagnosed as correct and no mistake is listed before that") {
-    const Bench bench{"showroom.front_to_back"};
-    const Lineup lineup{bench.laboratory};
-    const Diagnosis found = lineup.diagnose(bench.laboratory.right());
+    const SceneFixture bench{"showroom.front_to_back"};
+    const MistakeImages mistake_images{bench.mistake_renderer};
+    const Diagnosis found = mistake_images.diagnose(bench.mistake_renderer.right());
     CHECK(found.verdict == Verdict::right);
     CHECK(found.differing == 0);
     CHECK(found.findings.front().mistakes.empty());
@@ -46,11 +46,11 @@ TEST_CASE("the correct picture is diagnosed as correct and no mistake is listed 
 }
 
 TEST_CASE("one mistake is identified with the number of pixels that it explains") {
-    const Bench bench{"showroom.front_to_back"};
-    const Lineup lineup{bench.laboratory};
+    const SceneFixture bench{"showroom.front_to_back"};
+    const MistakeImages mistake_images{bench.mistake_renderer};
     for (const char* name : {"one_pass_too_few", "last_of_equals", "depth_16", "srgb_twice", "half_pixel_up"}) {
         const Picture picture = bench.with(name);
-        const Diagnosis found = lineup.diagnose(picture);
+        const Diagnosis found = mistake_images.diagnose(picture);
         INFO(name);
         CHECK(found.verdict == Verdict::one_mistake);
         const Finding& best = found.findings.front();
@@ -59,17 +59,17 @@ TEST_CASE("one mistake is identified with the number of pixels that it explains"
         CHECK(best.agreeing == found.pixels);
         CHECK(best.explained == found.differing);
         CHECK(best.contradicted == 0);
-        CHECK(found.differing == found.pixels - equal_pixels(bench.laboratory.right(), picture));
+        CHECK(found.differing == found.pixels - equal_pixels(bench.mistake_renderer.right(), picture));
     }
 }
 
 TEST_CASE("two simultaneous mistakes are identified") {
-    const Bench bench{"showroom.dual"};
-    const Lineup lineup{bench.laboratory};
+    const SceneFixture bench{"showroom.dual"};
+    const MistakeImages mistake_images{bench.mistake_renderer};
     for (const auto& [first, second] :
          {std::pair{"one_pass_too_few", "flipped_rows"}, std::pair{"culls_front", "mask_ignored"},
           std::pair{"premultiplied_twice", "background_lost"}}) {
-        const Diagnosis found = lineup.diagnose(bench.with(first, second));
+        const Diagnosis found = mistake_images.diagnose(bench.with(first, second));
         INFO(first << " and " << second);
         CHECK(found.verdict == Verdict::two_mistakes);
         const auto names = names_of(found.findings.front());
@@ -81,55 +81,55 @@ TEST_CASE("two simultaneous mistakes are identified") {
 
 TEST_CASE(
     "a picture of no known mistake has that verdict and the best finding has the number of pixels that it explains") {
-    const Bench bench{"showroom.weighted_sum"};
-    const Lineup lineup{bench.laboratory};
+    const SceneFixture bench{"showroom.weighted_sum"};
+    const MistakeImages mistake_images{bench.mistake_renderer};
     Picture spoiled = bench.with("flipped_rows");
     const std::uint64_t pixels = spoiled.targets[0].pixels();
     for (std::size_t i = 0; i < pixels; i += 97) spoiled.targets[0].codes[4 * i] ^= 0x55;
-    const Diagnosis found = lineup.diagnose(spoiled);
+    const Diagnosis found = mistake_images.diagnose(spoiled);
     CHECK(found.verdict == Verdict::unknown_mistake);
     const Finding& best = found.findings.front();
     const auto names = names_of(best);
     CHECK(std::ranges::find(names, "flipped_rows") != names.end());
     CHECK(best.agreeing >= pixels - (pixels + 96) / 97);
     CHECK(best.agreeing < pixels);
-    const std::string text = to_text(found, compare(bench.laboratory.right(), spoiled));
+    const std::string text = to_text(found, compare(bench.mistake_renderer.right(), spoiled));
     CHECK_THAT(text, Catch::StartsWith("none that is known"));
     CHECK_THAT(text, Catch::Contains("compare: different"));
-    const auto document = nlohmann::json::parse(to_json(found, compare(bench.laboratory.right(), spoiled)));
+    const auto document = nlohmann::json::parse(to_json(found, compare(bench.mistake_renderer.right(), spoiled)));
     CHECK(document["verdict"] == "unknown_mistake");
     CHECK(document["findings"].size() == found.findings.size());
     CHECK(document["comparison"]["equal"] == false);
 }
 
 TEST_CASE("a picture in which nothing is drawn is not evidence of two mistakes") {
-    const Bench bench{"showroom.dual"};
-    const Lineup lineup{bench.laboratory};
-    Picture blank = bench.laboratory.right();
+    const SceneFixture bench{"showroom.dual"};
+    const MistakeImages mistake_images{bench.mistake_renderer};
+    Picture blank = bench.mistake_renderer.right();
     auto& codes = blank.targets[0].codes;
     for (std::size_t i = 4; i < codes.size(); ++i) codes[i] = codes[i % 4];
-    const Diagnosis found = lineup.diagnose(blank);
+    const Diagnosis found = mistake_images.diagnose(blank);
     CHECK(found.verdict == Verdict::unknown_mistake);
     CHECK(found.pairs_tried == 0);
     CHECK(found.is_blank);
-    const std::string text = to_text(found, compare(bench.laboratory.right(), blank));
+    const std::string text = to_text(found, compare(bench.mistake_renderer.right(), blank));
     CHECK_THAT(text, Catch::StartsWith("none that is known: the picture has one colour everywhere: "));
     // Zero in every channel, as a target that was never written: two mistakes would explain it, and so would many
     // others.
     std::ranges::fill(codes, 0);
-    CHECK(lineup.diagnose(blank).verdict == Verdict::unknown_mistake);
+    CHECK(mistake_images.diagnose(blank).verdict == Verdict::unknown_mistake);
     codes[codes.size() / 2] ^= 1;
-    CHECK(lineup.diagnose(blank).pairs_tried > 0);
-    CHECK_FALSE(lineup.diagnose(blank).is_blank);
+    CHECK(mistake_images.diagnose(blank).pairs_tried > 0);
+    CHECK_FALSE(mistake_images.diagnose(blank).is_blank);
 }
 
 TEST_CASE("colours within the tolerance count as equal and the default tolerance is zero") {
-    const Bench bench{"showroom.weighted_sum"};
-    const Lineup lineup{bench.laboratory};
+    const SceneFixture bench{"showroom.weighted_sum"};
+    const MistakeImages mistake_images{bench.mistake_renderer};
     Picture rounded = bench.with("red_for_blue");
     for (std::uint32_t& code : rounded.targets[0].codes) code = code < 255 ? code + 1 : code;
-    CHECK(lineup.diagnose(rounded).verdict == Verdict::unknown_mistake);
-    const Diagnosis found = lineup.diagnose(rounded, {.color_codes = 1});
+    CHECK(mistake_images.diagnose(rounded).verdict == Verdict::unknown_mistake);
+    const Diagnosis found = mistake_images.diagnose(rounded, {.color_codes = 1});
     CHECK(found.verdict == Verdict::one_mistake);
     CHECK(names_of(found.findings.front())[0] == "red_for_blue");
 }

@@ -7,7 +7,7 @@
 
 using namespace strata;
 using namespace strata::oracle;
-using strata::test::Bench;
+using strata::test::SceneFixture;
 
 namespace {
 
@@ -32,13 +32,13 @@ const NamedIn mistakes_by_scene[] = {
 
 TEST_CASE("mistakes of weights and moments and lists and tails and samples and buckets are named and no other is") {
     for (const NamedIn& named : mistakes_by_scene) {
-        const Bench bench{named.scene};
-        const Lineup lineup{bench.laboratory};
+        const SceneFixture bench{named.scene};
+        const MistakeImages mistake_images{bench.mistake_renderer};
         INFO(named.scene);
-        CHECK(lineup.diagnose(bench.laboratory.right()).verdict == Verdict::right);
+        CHECK(mistake_images.diagnose(bench.mistake_renderer.right()).verdict == Verdict::right);
         for (const char* mistake : named.mistakes) {
             INFO(mistake);
-            const Diagnosis found = lineup.diagnose(bench.with(mistake));
+            const Diagnosis found = mistake_images.diagnose(bench.with(mistake));
             REQUIRE(found.verdict == Verdict::one_mistake);
             CHECK(found.findings.front().mistakes.front()->name == mistake);
             CHECK(found.findings.front().agreeing == found.pixels);

@@ -9,7 +9,7 @@
 
 using namespace strata;
 using namespace strata::oracle;
-using strata::test::Bench;
+using strata::test::SceneFixture;
 
 namespace {
 
@@ -26,7 +26,7 @@ std::vector<PassPicture> passes_with(const OpenScene& opened, const char* mistak
     std::vector<PassPicture> all;
     passes(
         {*e.list, e.view, e.profile, e.options}, *e.algorithm,
-        [&](PassShown&& pass) {
+        [&](PassReport&& pass) {
             if (pass.kind == PassKind::published) return;
             all.push_back({.number = pass.number, .iteration = pass.iteration, .has_own = true});
             for (const NamedImage& target : pass.targets)
@@ -36,8 +36,9 @@ std::vector<PassPicture> passes_with(const OpenScene& opened, const char* mistak
     return all;
 }
 
-Diagnosis diagnosed(const Lineup& lineup, const Picture& picture, const std::vector<PassPicture>& passes) {
-    return lineup.diagnose(picture, {}, {}, &passes);
+Diagnosis diagnosed(const MistakeImages& mistake_images, const Picture& picture,
+                    const std::vector<PassPicture>& passes) {
+    return mistake_images.diagnose(picture, {}, {}, &passes);
 }
 
 const Finding& first_of(const Diagnosis& diagnosis) { return diagnosis.findings.front(); }
@@ -45,16 +46,16 @@ const Finding& first_of(const Diagnosis& diagnosis) { return diagnosis.findings.
 }  // namespace
 
 TEST_CASE("equal passes are counted and the first different one is reported") {
-    const Bench bench{"random.dual"};
+    const SceneFixture bench{"random.dual"};
     std::vector<PassPicture> passes = passes_with(bench.opened, nullptr);
-    const auto whole = bench.laboratory.compare_passes({}, passes);
+    const auto whole = bench.mistake_renderer.compare_passes({}, passes);
     REQUIRE(whole);
     CHECK(whole->is_whole());
     CHECK(whole->alike == whole->targets);
     CHECK(whole->targets > static_cast<int>(passes.size()));
     passes[3].targets.targets.back().codes[5] ^= 1;
     passes.erase(passes.begin() + 1);  // a pass that the candidate lacks is not compared
-    const auto one_less = bench.laboratory.compare_passes({}, passes);
+    const auto one_less = bench.mistake_renderer.compare_passes({}, passes);
     REQUIRE(one_less);
     CHECK(one_less->first_unlike == 3);
     CHECK(one_less->alike == one_less->targets - 1);
@@ -62,15 +63,15 @@ TEST_CASE("equal passes are counted and the first different one is reported") {
 }
 
 TEST_CASE("of mistakes with equal pictures the passes identify the one that was made") {
-    const Bench bench{"random.dual"};
-    const Laboratory laboratory{bench.opened.input(), *bench.opened.algorithm, Depths::left_out, limit};
-    const Lineup lineup{laboratory};
+    const SceneFixture bench{"random.dual"};
+    const MistakeRenderer mistake_renderer{bench.opened.input(), *bench.opened.algorithm, Depths::left_out, limit};
+    const MistakeImages mistake_images{mistake_renderer};
     // Both have the same picture because nothing is ever peeled.
     for (const char* name : {"min_for_max", "add_for_max"}) {
-        const Picture picture = laboratory.with(*find_mistake(name)).value();
+        const Picture picture = mistake_renderer.with(*find_mistake(name)).value();
         INFO(name);
-        CHECK(lineup.diagnose(picture).findings.front().mistakes[0]->name == "min_for_max");
-        const Diagnosis found = diagnosed(lineup, picture, passes_with(bench.opened, name));
+        CHECK(mistake_images.diagnose(picture).findings.front().mistakes[0]->name == "min_for_max");
+        const Diagnosis found = diagnosed(mistake_images, picture, passes_with(bench.opened, name));
         CHECK(found.verdict == Verdict::one_mistake);
         CHECK(first_of(found).mistakes[0]->name == name);
         CHECK(first_of(found).passes->is_whole());
@@ -78,52 +79,54 @@ TEST_CASE("of mistakes with equal pictures the passes identify the one that was 
 }
 
 TEST_CASE("of two simultaneous mistakes the passes identify the one whose picture equals that of another") {
-    const Bench bench{"random.dual"};
-    const Laboratory laboratory{bench.opened.input(), *bench.opened.algorithm, Depths::left_out, limit};
-    const Lineup lineup{laboratory};
+    const SceneFixture bench{"random.dual"};
+    const MistakeRenderer mistake_renderer{bench.opened.input(), *bench.opened.algorithm, Depths::left_out, limit};
+    const MistakeImages mistake_images{mistake_renderer};
     const Mistake* const both[] = {find_mistake("add_for_max"), find_mistake("red_for_blue")};
-    const Picture picture = laboratory.with(both).value();
+    const Picture picture = mistake_renderer.with(both).value();
     const auto passes = passes_with(bench.opened, "add_for_max");
-    const Diagnosis found = diagnosed(lineup, picture, passes);
+    const Diagnosis found = diagnosed(mistake_images, picture, passes);
     CHECK(found.verdict == Verdict::two_mistakes);
     CHECK(first_of(found).mistakes[0]->name == "add_for_max");
     CHECK(first_of(found).mistakes.size() == 2);
 }
 
 TEST_CASE("a picture that hides a mistake is accepted and passes that show it are not") {
-    const Bench bench{"random.front_to_back"};
-    const Lineup lineup{bench.laboratory};
+    const SceneFixture bench{"random.front_to_back"};
+    const MistakeImages mistake_images{bench.mistake_renderer};
     const Mistake& hidden = *find_mistake("depth_24");
-    REQUIRE_FALSE(lineup.shows(hidden));
-    const Diagnosis right = diagnosed(lineup, bench.laboratory.right(), passes_with(bench.opened, nullptr));
+    REQUIRE_FALSE(mistake_images.shows(hidden));
+    const Diagnosis right =
+        diagnosed(mistake_images, bench.mistake_renderer.right(), passes_with(bench.opened, nullptr));
     CHECK(right.verdict == Verdict::right);
     CHECK(right.right_passes->is_whole());
-    const Diagnosis found = diagnosed(lineup, bench.laboratory.right(), passes_with(bench.opened, "depth_24"));
+    const Diagnosis found =
+        diagnosed(mistake_images, bench.mistake_renderer.right(), passes_with(bench.opened, "depth_24"));
     CHECK(found.verdict == Verdict::one_mistake);
     CHECK(first_of(found).mistakes[0]->name == "depth_24");
 }
 
 TEST_CASE("a mistake that explains the picture but whose passes differ as early as without it is not identified") {
-    const Bench bench{"random.front_to_back"};
-    const Lineup lineup{bench.laboratory};
+    const SceneFixture bench{"random.front_to_back"};
+    const MistakeImages mistake_images{bench.mistake_renderer};
     std::vector<PassPicture> passes = passes_with(bench.opened, nullptr);
     for (PassPicture& pass : passes)
         for (Target& target : pass.targets.targets)
             if (target.meaning == Meaning::color) target.codes[0] ^= 0xff;
-    const Diagnosis found = diagnosed(lineup, bench.with("red_for_blue"), passes);
+    const Diagnosis found = diagnosed(mistake_images, bench.with("red_for_blue"), passes);
     CHECK(found.verdict == Verdict::unknown_mistake);
     CHECK(found.passes_contradict);
     CHECK(first_of(found).agreeing == found.pixels);
 }
 
 TEST_CASE("a few pixels of the first wrong pass do not contradict the mistake that explains the others but many do") {
-    const Bench bench{"random.front_to_back"};
-    const Lineup lineup{bench.laboratory};
+    const SceneFixture bench{"random.front_to_back"};
+    const MistakeImages mistake_images{bench.mistake_renderer};
     for (const bool are_many : {false, true}) {
         std::vector<PassPicture> passes = passes_with(bench.opened, "half_pixel_right");
         for (Target& target : passes[0].targets.targets)
             for (std::size_t i = 0; i < (are_many ? target.codes.size() : 4); ++i) target.codes[i] ^= 0x7f0000ff;
-        const Diagnosis found = diagnosed(lineup, bench.with("half_pixel_right"), passes);
+        const Diagnosis found = diagnosed(mistake_images, bench.with("half_pixel_right"), passes);
         CHECK(found.passes_contradict == are_many);
         CHECK((found.verdict == Verdict::one_mistake) == !are_many);
         CHECK(first_of(found).mistakes[0]->name == "half_pixel_right");
@@ -131,22 +134,22 @@ TEST_CASE("a few pixels of the first wrong pass do not contradict the mistake th
 }
 
 TEST_CASE("a mistake that explains half of the pixels exactly and all within one code is identified as nearly exact") {
-    const Bench bench{"showroom.weighted_sum"};
-    const Lineup lineup{bench.laboratory};
+    const SceneFixture bench{"showroom.weighted_sum"};
+    const MistakeImages mistake_images{bench.mistake_renderer};
     Picture rounded = bench.with("red_for_blue");
     auto& codes = rounded.targets[0].codes;
     for (std::size_t i = 0; i < codes.size(); i += 40) codes[i] = codes[i] < 255 ? codes[i] + 1 : 254;
-    const Diagnosis found = lineup.diagnose(rounded);
+    const Diagnosis found = mistake_images.diagnose(rounded);
     CHECK(found.verdict == Verdict::one_mistake);
     CHECK(found.is_nearly);
     CHECK(first_of(found).mistakes[0]->name == "red_for_blue");
     CHECK(first_of(found).nearly == found.pixels);
     CHECK(first_of(found).agreeing < found.pixels);
     // A picture that is one code off but otherwise correct has no mistake.
-    Picture off = bench.laboratory.right();
+    Picture off = bench.mistake_renderer.right();
     for (std::size_t i = 0; i < off.targets[0].codes.size(); i += 40)
         off.targets[0].codes[i] = off.targets[0].codes[i] < 255 ? off.targets[0].codes[i] + 1 : 254;
-    const Diagnosis none = lineup.diagnose(off);
+    const Diagnosis none = mistake_images.diagnose(off);
     CHECK(none.verdict == Verdict::unknown_mistake);
     CHECK_FALSE(none.is_nearly);
 }

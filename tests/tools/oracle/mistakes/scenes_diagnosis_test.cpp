@@ -8,15 +8,15 @@
 
 using namespace strata;
 using namespace strata::oracle;
-using strata::test::Bench;
+using strata::test::SceneFixture;
 
 namespace {
 
 // A scene of the suite with the pictures of all mistakes, made once for all tests.
 struct SceneBench {
-    explicit SceneBench(const char* name) : bench{name}, lineup{bench.laboratory} {}
-    Bench bench;
-    Lineup lineup;
+    explicit SceneBench(const char* name) : bench{name}, mistake_images{bench.mistake_renderer} {}
+    SceneFixture bench;
+    MistakeImages mistake_images;
 };
 
 const SceneBench& random_peel() {
@@ -34,8 +34,9 @@ const SceneBench& averaged() {
 
 ScenesDiagnosis diagnosed(const SceneBench& first, const Picture& made_of_first, const SceneBench& second,
                           const Picture& made_of_second) {
-    return diagnose_scenes({{.name = "first", .lineup = &first.lineup, .candidate = &made_of_first},
-                            {.name = "second", .lineup = &second.lineup, .candidate = &made_of_second}});
+    return diagnose_scenes(
+        {{.name = "first", .mistake_images = &first.mistake_images, .candidate = &made_of_first},
+         {.name = "second", .mistake_images = &second.mistake_images, .candidate = &made_of_second}});
 }
 
 std::vector<std::string_view> first_names(const ScenesDiagnosis& diagnosis) {
@@ -49,8 +50,8 @@ using FirstNames = std::vector<std::string_view>;
 }  // namespace
 
 TEST_CASE("a port whose pictures are correct in every scene is correct") {
-    const ScenesDiagnosis found = diagnosed(random_peel(), random_peel().bench.laboratory.right(), planes_peel(),
-                                            planes_peel().bench.laboratory.right());
+    const ScenesDiagnosis found = diagnosed(random_peel(), random_peel().bench.mistake_renderer.right(), planes_peel(),
+                                            planes_peel().bench.mistake_renderer.right());
     CHECK(found.verdict == Verdict::right);
     CHECK(found.differing == 0);
     CHECK(found.findings.front().mistakes.empty());
@@ -58,7 +59,7 @@ TEST_CASE("a port whose pictures are correct in every scene is correct") {
 
 TEST_CASE("of two mistakes with equal pictures in one scene another scene identifies the one that was made") {
     const Picture peeled = random_peel().bench.with("order_reversed");
-    const Diagnosis alone = random_peel().lineup.diagnose(peeled);
+    const Diagnosis alone = random_peel().mistake_images.diagnose(peeled);
     CHECK(alone.findings.front().mistakes[0]->name == "last_of_equals");
     const ScenesDiagnosis both = diagnosed(random_peel(), peeled, averaged(), averaged().bench.with("order_reversed"));
     CHECK(both.verdict == Verdict::one_mistake);
@@ -68,7 +69,7 @@ TEST_CASE("of two mistakes with equal pictures in one scene another scene identi
 }
 
 TEST_CASE("a mistake that one scene hides is identified by the other") {
-    REQUIRE_FALSE(random_peel().lineup.shows(*find_mistake("depth_stepwise")));
+    REQUIRE_FALSE(random_peel().mistake_images.shows(*find_mistake("depth_stepwise")));
     const ScenesDiagnosis found = diagnosed(random_peel(), random_peel().bench.with("depth_stepwise"), planes_peel(),
                                             planes_peel().bench.with("depth_stepwise"));
     CHECK(found.verdict == Verdict::one_mistake);
@@ -90,7 +91,7 @@ TEST_CASE("a scene whose colours are all one code off gets the mistake that expl
         return picture;
     };
     const Picture planes = off_by_one(planes_peel().bench.with("red_for_blue"));
-    CHECK(planes_peel().lineup.diagnose(planes).verdict == Verdict::unknown_mistake);
+    CHECK(planes_peel().mistake_images.diagnose(planes).verdict == Verdict::unknown_mistake);
     const ScenesDiagnosis found = diagnosed(random_peel(), peeled, planes_peel(), planes);
     CHECK(found.verdict == Verdict::one_mistake);
     CHECK(first_names(found) == FirstNames{"red_for_blue"});
@@ -104,8 +105,8 @@ TEST_CASE("a port with a different mistake in each scene has no known mistake") 
     CHECK(found.verdict == Verdict::unknown_mistake);
     CHECK(std::ranges::count(found.findings.front().fits, true) == 1);
     const std::vector<SceneReport> reports{
-        {"first", compare(random_peel().bench.laboratory.right(), random_peel().bench.with("not_premultiplied"))},
-        {"second", compare(planes_peel().bench.laboratory.right(), planes_peel().bench.with("upside_down"))}};
+        {"first", compare(random_peel().bench.mistake_renderer.right(), random_peel().bench.with("not_premultiplied"))},
+        {"second", compare(planes_peel().bench.mistake_renderer.right(), planes_peel().bench.with("upside_down"))}};
     const std::string text = to_text(found, reports);
     CHECK_THAT(text, Catch::StartsWith("none that is known"));
     CHECK_THAT(text, Catch::Contains("  first: ") && Catch::Contains("(not_premultiplied)") &&

@@ -7,7 +7,7 @@
 #include "peeling/registry.h"
 #include "peeling/render.h"
 #include "tools/oracle/mistakes/catalogue.h"
-#include "tools/oracle/mistakes/laboratory.h"
+#include "tools/oracle/mistakes/mistake_renderer.h"
 
 using namespace strata;
 using namespace strata::oracle;
@@ -49,8 +49,9 @@ struct OneTriangle {
         options.color_format = pipeline::Format::rgba32f;
     }
     [[nodiscard]] Picture with(const char* mistake) const {
-        const Laboratory laboratory{{list, view, profile, options}, *peeling::find_algorithm("front_to_back")};
-        return mistake == nullptr ? laboratory.right() : laboratory.with(*find_mistake(mistake)).value();
+        const MistakeRenderer mistake_renderer{{list, view, profile, options},
+                                               *peeling::find_algorithm("front_to_back")};
+        return mistake == nullptr ? mistake_renderer.right() : mistake_renderer.with(*find_mistake(mistake)).value();
     }
     // Expected colour at a pixel's centre, linear over the window.
     [[nodiscard]] double linear(std::size_t channel, int x, int y) const {
@@ -121,11 +122,11 @@ TEST_CASE("colours without perspective are linear over the window and depths are
 
 TEST_CASE("two half-pixel offsets move the picture by one pixel") {
     const OneTriangle scene{"geforce8"};
-    const Laboratory laboratory{{scene.list, scene.view, scene.profile, scene.options},
-                                *peeling::find_algorithm("front_to_back")};
+    const MistakeRenderer mistake_renderer{{scene.list, scene.view, scene.profile, scene.options},
+                                           *peeling::find_algorithm("front_to_back")};
     const Mistake* const half = find_mistake("half_pixel_right");
     const Mistake* const twice[] = {half, half};
-    const Picture moved = laboratory.with(twice).value(), right = laboratory.right();
+    const Picture moved = mistake_renderer.with(twice).value(), right = mistake_renderer.right();
     int coverage = 0;
     for (int y = 1; y < side_px; ++y)
         for (int x = 1; x < side_px; ++x)

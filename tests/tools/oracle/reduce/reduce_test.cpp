@@ -9,7 +9,7 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/camera.h"
 #include "tools/oracle/mistakes/catalogue.h"
-#include "tools/oracle/mistakes/laboratory.h"
+#include "tools/oracle/mistakes/mistake_renderer.h"
 #include "tools/oracle/mistakes/suite_packs.h"
 #include "tools/oracle/reduce/cut_scene.h"
 
@@ -29,10 +29,10 @@ Golden golden_of(const char* suite_scene) { return oracle::golden_of(*find_suite
 
 // Draws with that mistake, or correctly where the scene cannot have it.
 std::optional<Picture> mistaken(const Golden& scene, const char* mistake) {
-    const Laboratory laboratory{{scene.scene.list, *scene.scene.own_view, scene.profile, scene.options},
-                                *scene.algorithms[0]};
-    const auto picture = laboratory.with(*find_mistake(mistake));
-    return picture ? picture : laboratory.right();
+    const MistakeRenderer mistake_renderer{{scene.scene.list, *scene.scene.own_view, scene.profile, scene.options},
+                                           *scene.algorithms[0]};
+    const auto picture = mistake_renderer.with(*find_mistake(mistake));
+    return picture ? picture : mistake_renderer.right();
 }
 
 bool differs(const Golden& scene, const Candidate& candidate) {
@@ -91,7 +91,7 @@ TEST_CASE("settings that the failure does not need are reset to their defaults a
     REQUIRE(other);
     CHECK(other->scene.options.background == peeling::RenderOptions{}.background);
     CHECK(std::ranges::find(other->defaults, "the background") != other->defaults.end());
-    CHECK_THAT(other->sentence(), Catch::Contains("1 triangle in a frame of 1x1"));
+    CHECK_THAT(other->description(), Catch::Contains("1 triangle in a frame of 1x1"));
 }
 
 TEST_CASE("a correct candidate leaves nothing to reduce and one that draws nothing or another size is an error") {
@@ -116,7 +116,7 @@ TEST_CASE("scenes that the candidate cannot draw are not kept and are counted") 
     REQUIRE(found);
     CHECK(found->triangles == 10);
     CHECK(found->undrawn > 0);
-    CHECK_THAT(found->sentence(), Catch::Contains(" drew nothing"));
+    CHECK_THAT(found->description(), Catch::Contains(" drew nothing"));
 }
 
 TEST_CASE("a reduction keeps the kind of the failure even if another kind would be smaller") {
@@ -195,10 +195,11 @@ TEST_CASE("a failure that needs whole frames is reduced by a scissor and pixels 
     CHECK(found->window.area() <= 4);
     CHECK(found->scene.options.raster.scissor == found->window);
     CHECK(found->triangles <= 3);
-    CHECK_THAT(found->sentence(), Catch::Contains(" pixels of a frame of "));
+    CHECK_THAT(found->description(), Catch::Contains(" pixels of a frame of "));
     const auto first = std::ranges::find(found->comparison.kinds, found->kind, &KindReport::kind);
-    CHECK_THAT(found->sentence(), Catch::Contains("the first at " + std::to_string(found->window.x0 + first->first_x) +
-                                                  "," + std::to_string(found->window.y0 + first->first_y)));
+    CHECK_THAT(found->description(),
+               Catch::Contains("the first at " + std::to_string(found->window.x0 + first->first_x) + "," +
+                               std::to_string(found->window.y0 + first->first_y)));
 }
 
 TEST_CASE("the view of a cropped window shows the same pixels as the whole window") {

@@ -35,7 +35,7 @@ std::uint64_t strays_of_one_layer(Rounding rounding, int step, int (*model)(int 
     for (int s = 0; s < 256; ++s)
         for (int a = 0; a < 256; ++a)
             for (int d = 0; d < 256; d += step) {
-                const Reach reach = compositor.reach(one_layer(s, a, d));
+                const ReachableColor reach = compositor.reach(one_layer(s, a, d));
                 const int wanted = model(s * a + d * (255 - a));
                 strays += code_of(reach[0].low) == wanted && code_of(reach[0].high) == wanted ? 0 : 1;
             }
@@ -82,7 +82,7 @@ Outside outside_of(Storage result, int lists, std::uint64_t seed) {
         for (int i = 0; i < lists; ++i) {
             const Stack stack = random_stack(random, 12);
             const auto value = port.composite(stack);
-            const Reach reach = compositor.reach(stack);
+            const ReachableColor reach = compositor.reach(stack);
             bool is_inside = holds(reach, value);
             for (std::size_t c = 0; c < 4; ++c)
                 is_inside &= value[c] >= reach[c].low - 1e-12 && value[c] <= reach[c].high + 1e-12;
@@ -124,13 +124,13 @@ TEST_CASE("each variant of blending reaches the value that is worked out by hand
 
 TEST_CASE("one layer of 8-bit codes reaches exactly the code that integer arithmetic gives") {
     CHECK(strays_of_one_layer(Rounding::nearest, 15, nearest_code) == 0);
-    CHECK(strays_of_one_layer(Rounding::cut, 15, cut_code) == 0);
+    CHECK(strays_of_one_layer(Rounding::truncated, 15, cut_code) == 0);
 }
 
 TEST_CASE("one layer of 8-bit codes reaches the code of integer arithmetic for every source and alpha and target",
           "[exhaustive]") {
     CHECK(strays_of_one_layer(Rounding::nearest, 1, nearest_code) == 0);
-    CHECK(strays_of_one_layer(Rounding::cut, 1, cut_code) == 0);
+    CHECK(strays_of_one_layer(Rounding::truncated, 1, cut_code) == 0);
 }
 
 TEST_CASE("two layers of 8-bit codes reach exactly the code that integer arithmetic gives") {
@@ -145,7 +145,7 @@ TEST_CASE("two layers of 8-bit codes reach exactly the code that integer arithme
                         stack.layers.push_back({.color = {value(t), value(t), value(t), value(b)}});
                         const int behind = nearest_code(t * b + d * (255 - b));
                         const int wanted = nearest_code(s * a + behind * (255 - a));
-                        const Reach reach = over.reach(stack);
+                        const ReachableColor reach = over.reach(stack);
                         strays += code_of(reach[0].low) == wanted && code_of(reach[0].high) == wanted ? 0 : 1;
                     }
     CHECK(strays == 0);
@@ -175,7 +175,7 @@ TEST_CASE(
     const std::vector<Hypothesis> wide = widest(all);
     std::string first;
     const auto compare = [&](const Stack& stack, const Hypothesis& inner, const Hypothesis& outer) {
-        const Reach narrow = Compositor{inner}.reach(stack), reach = Compositor{outer}.reach(stack);
+        const ReachableColor narrow = Compositor{inner}.reach(stack), reach = Compositor{outer}.reach(stack);
         for (std::size_t c = 0; c < 4; ++c)
             if (narrow[c].low < reach[c].low - 1e-12 || narrow[c].high > reach[c].high + 1e-12) first = describe(inner);
     };

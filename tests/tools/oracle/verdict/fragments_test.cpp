@@ -18,18 +18,18 @@ using strata::test::OpenedScene;
 namespace {
 
 // Per pixel, the primitives of its visible and of its hidden fragments, in the order of a traversal.
-struct Told {
+struct WalkedPixels {
     std::vector<std::uint32_t> visible{}, hidden{};
     Rgba behind{};
     int visits = 0;
-    bool operator==(const Told&) const = default;
+    bool operator==(const WalkedPixels&) const = default;
 };
-std::vector<Told> told_of(const SceneFragments& scene) {
-    std::vector<Told> told(static_cast<std::size_t>(scene.width()) * static_cast<std::size_t>(scene.height()));
+std::vector<WalkedPixels> walked(const SceneFragments& scene) {
+    std::vector<WalkedPixels> told(static_cast<std::size_t>(scene.width()) * static_cast<std::size_t>(scene.height()));
     scene.for_each_tile([&](const TileLists& tile) {
         for (std::size_t p = 0; p < tile.rect.area(); ++p) {
             const PixelList list = scene.at(tile, p);
-            Told& pixel = told[static_cast<std::size_t>(list.y * scene.width() + list.x)];
+            WalkedPixels& pixel = told[static_cast<std::size_t>(list.y * scene.width() + list.x)];
             ++pixel.visits;
             pixel.behind = list.behind;
             for (const Fragment& f : list.visible) pixel.visible.push_back(f.primitive);
@@ -49,9 +49,9 @@ TEST_CASE("every pixel is visited once with its visible fragments from near to f
     std::vector<std::vector<pipeline::CapturedFragment>> of_pixel(100 * 80);
     for (const pipeline::CapturedFragment& f : all.all) of_pixel[f.pixel].push_back(f);
     std::size_t wrong = 0, hidden = 0;
-    const std::vector<Told> told = told_of(scene);
+    const std::vector<WalkedPixels> told = walked(scene);
     for (std::size_t p = 0; p < told.size(); ++p) {
-        Told model{.behind = told[p].behind, .visits = 1};
+        WalkedPixels model{.behind = told[p].behind, .visits = 1};
         std::ranges::stable_sort(of_pixel[p], {}, &pipeline::CapturedFragment::code);
         for (const pipeline::CapturedFragment& f : of_pixel[p])
             (f.code < all.opaque[p] ? model.visible : model.hidden).push_back(f.primitive);
@@ -65,8 +65,7 @@ TEST_CASE("every pixel is visited once with its visible fragments from near to f
 
 TEST_CASE("a traversal without memory renders the scene again and gives the same lists") {
     const OpenedScene opened{"teapot", 150, 150};  // with blank tiles
-    CHECK(told_of(SceneFragments{opened.input(), 0}) ==
-          told_of(SceneFragments{opened.input(), std::uint64_t{1} << 30}));
+    CHECK(walked(SceneFragments{opened.input(), 0}) == walked(SceneFragments{opened.input(), std::uint64_t{1} << 30}));
 }
 
 TEST_CASE("a fragment has its instance and its facing and a pixel has the opaque colour behind it") {

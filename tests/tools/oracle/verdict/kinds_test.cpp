@@ -25,7 +25,7 @@ oracle::Target picture_by(const SceneFragments& scene, const std::vector<Rule>& 
         const std::scoped_lock lock{mutex};
         for (std::size_t p = 0; p < tile.rect.area(); ++p) {
             const PixelList list = scene.at(tile, p);
-            const Reach reach = compositor.reach(maker.with(rules, list, {}));
+            const ReachableColor reach = compositor.reach(maker.with(rules, list, {}));
             const std::size_t first = std::size_t{3} * static_cast<std::size_t>(list.y * width + list.x);
             for (std::size_t c = 0; c < 3; ++c)
                 picture.codes[first + c] = static_cast<std::uint32_t>(std::lround(reach[c].low * 255));
@@ -53,15 +53,15 @@ std::vector<std::string> misnamed_in(const std::string& scene, int width, int he
         const oracle::Target picture = picture_by(fragments, {rule});
         if (farthest(picture, right) <= 1) continue;
         const Verdict verdict = judged(opened, picture);
-        const auto has_kind = [&](const Checked& c) { return c.account.rules[0].kind == rule.kind; };
-        const auto is_same = [&](const Checked& c) {
+        const auto has_kind = [&](const CheckedAccount& c) { return c.account.rules[0].kind == rule.kind; };
+        const auto is_same = [&](const CheckedAccount& c) {
             return farthest(picture_by(fragments, c.account.rules), picture) <= 1;
         };
         named += std::ranges::any_of(verdict.explanations, has_kind) ? 1 : 0;
         if (std::ranges::any_of(verdict.explanations, has_kind) || std::ranges::all_of(verdict.explanations, is_same))
             continue;
         misnamed.emplace_back(name(rule.kind));
-        for (const Checked& c : verdict.explanations)
+        for (const CheckedAccount& c : verdict.explanations)
             misnamed.back() += " " + std::string{name(c.account.rules[0].kind)};
     }
     CHECK(named > 80);

@@ -58,27 +58,27 @@ class PortModel {
     }
 
     // Rounds to 11 bits: to nearest with ties to even, or truncated.
-    static double as_half(double v, bool cuts) {
+    static double as_half(double v, bool truncates) {
         if (v == 0) return 0;
         int exponent = 0;
         static_cast<void>(std::frexp(v, &exponent));
         const double unit = std::ldexp(1.0, std::max(exponent - 11, -24));
         const double n = v / unit;
-        return unit * (cuts ? std::trunc(n) : std::nearbyint(n));
+        return unit * (truncates ? std::trunc(n) : std::nearbyint(n));
     }
 
     // Stores a blend's result, which is exact or nearly so, in the format of the end.
     double kept(const End& end, double v) {
         const int top = levels(end.storage);
         if (end.storage == Storage::single) return as_single(v);
-        const bool cuts = end.rounding == Rounding::cut || (end.rounding == Rounding::any && flips());
-        if (end.storage == Storage::half) return as_half(as_single(v), cuts);
+        const bool truncates = end.rounding == Rounding::truncated || (end.rounding == Rounding::any && flips());
+        if (end.storage == Storage::half) return as_half(as_single(v), truncates);
         const double code = std::min(std::max(v, 0.0), 1.0) * top;
         switch (end.rounding) {
             case Rounding::nearest:
             case Rounding::products: return std::floor(code + 0.5) / top;
             // A result that is exactly a code may have been computed slightly below it.
-            case Rounding::cut: return std::floor(code + 1e-9) / top;
+            case Rounding::truncated: return std::floor(code + 1e-9) / top;
             case Rounding::held: return flips() ? std::floor(code + 0.5) / top : as_single(v);
             case Rounding::any: break;
         }
@@ -95,13 +95,13 @@ class PortModel {
         if (end.storage == Storage::single) return v;
         if (end.storage == Storage::half) return end.source == Source::any ? as_half(v, flips()) : v;
         const double code = std::min(std::max(v, 0.0), 1.0) * top;
-        if (end.source == Source::premultiplied_cut) return std::floor(code + 1e-9) / top;
+        if (end.source == Source::premultiplied_truncated) return std::floor(code + 1e-9) / top;
         const bool goes_up = end.source == Source::stored || end.source == Source::premultiplied || flips();
         return (goes_up ? std::floor(code + 0.5) : std::ceil(code - 0.5)) / top;
     }
     bool premultiplies(const End& end) {
         return end.source == Source::premultiplied || end.source == Source::premultiplied_either_way ||
-               end.source == Source::premultiplied_cut || (end.source == Source::any && flips());
+               end.source == Source::premultiplied_truncated || (end.source == Source::any && flips());
     }
 
     Color background(const End& end, const Rgba& given) {

@@ -151,15 +151,15 @@ TEST_CASE("every kind of rule has a unique name and a sentence and a stage in pa
     list.meshes.resize(1);
     list.materials.resize(1);
     list.instances.resize(1);
-    std::set<std::string> names, sentences;
+    std::set<std::string> names, descriptions;
     for (std::size_t k = 0; k < rule_kind_count; ++k) {
         const Rule rule{.kind = static_cast<RuleKind>(k), .n = 2, .value = 0.5f};
         names.emplace(name(rule.kind));
         if (rule.kind == RuleKind::right) continue;
-        sentences.insert(sentence(rule, facts, list));
+        descriptions.insert(description(rule, facts, list));
         CHECK(stage_of(rule.kind) >= 0);
     }
     CHECK(names.size() == rule_kind_count);
-    CHECK(sentences.size() == rule_kind_count - 1);
-    CHECK_FALSE(sentences.contains(""));
+    CHECK(descriptions.size() == rule_kind_count - 1);
+    CHECK_FALSE(descriptions.contains(""));
 }

@@ -16,7 +16,7 @@ namespace {
 
 std::set<std::string> found(const Verdict& verdict) {
     std::set<std::string> names;
-    for (const Checked& c : verdict.explanations)
+    for (const CheckedAccount& c : verdict.explanations)
         for (const Rule& rule : c.account.rules)
             names.insert(std::string{name(rule.kind)} + " " + std::to_string(rule.n));
     return names;

@@ -28,7 +28,7 @@ constexpr SearchLimits nothing{.mistakes = 0, .narrower = 0, .leads = 0, .of_fra
 // A port that truncates in blends: right, but with wide intervals.
 Hypothesis port_that_cuts() {
     Hypothesis cuts = port_of_codes(Order::both_ends);
-    cuts.front.rounding = cuts.back.rounding = Rounding::cut;
+    cuts.front.rounding = cuts.back.rounding = Rounding::truncated;
     return cuts;
 }
 

@@ -1,9 +1,9 @@
 // Tests the choice of a scene that distinguishes mistakes, against the mistakes' own pictures on that scene.
-#include "tools/oracle/mistakes/telling.h"
+#include "tools/oracle/mistakes/distinguishing_scene.h"
 
 #include <catch2/catch.hpp>
 
-#include "tools/oracle/mistakes/laboratory.h"
+#include "tools/oracle/mistakes/mistake_renderer.h"
 
 using namespace strata;
 using namespace strata::oracle;
@@ -14,12 +14,12 @@ TEST_CASE("the scene that distinguishes mistakes has a different picture for eac
     const SuiteScene* scene = distinguishing_scene(both);
     REQUIRE(scene != nullptr);
     const OpenScene opened = open(*scene);
-    const Laboratory laboratory{opened.input(), *opened.algorithm};
-    const auto first = laboratory.with(*both[0]), second = laboratory.with(*both[1]);
+    const MistakeRenderer mistake_renderer{opened.input(), *opened.algorithm};
+    const auto first = mistake_renderer.with(*both[0]), second = mistake_renderer.with(*both[1]);
     REQUIRE((first && second));
     CHECK(first->targets[0].codes != second->targets[0].codes);
-    CHECK(first->targets[0].codes != laboratory.right().targets[0].codes);
-    CHECK(second->targets[0].codes != laboratory.right().targets[0].codes);
+    CHECK(first->targets[0].codes != mistake_renderer.right().targets[0].codes);
+    CHECK(second->targets[0].codes != mistake_renderer.right().targets[0].codes);
 }
 
 TEST_CASE("one mistake needs no scene and a repeated mistake has none") {

@@ -1,10 +1,10 @@
-// tools/oracle/mistakes/laboratory.h - renders images of one scene: the correct one, and those with mistakes.
+// tools/oracle/mistakes/mistake_renderer.h - renders images of one scene: the correct one, and those with mistakes.
 //
 // Rule     An image has the stored colours, and the stored nearest depth if the caller requests depths. A run with a
 //          mistake may not terminate: its passes are limited to the caller's limit, if given; otherwise to twice those
 //          of the correct run plus eight, or to the same number if the correct run does not terminate either. If a run
 //          is refused or cannot be made, there is no image.
-// Tests    tests/tools/oracle/mistakes/laboratory_test.cpp
+// Tests    tests/tools/oracle/mistakes/mistake_renderer_test.cpp
 #pragma once
 #include <optional>
 #include <span>
@@ -19,12 +19,12 @@ struct Mistake;  // tools/oracle/mistakes/catalogue.h
 
 enum class Depths : std::uint8_t { left_out, made };
 
-class Laboratory {
+class MistakeRenderer {
   public:
     // Throws Refused if the correct run is refused. Objects that `input` refers to must outlive this. `limit`: the
     // number of geometry passes after which the candidate gives up; 0: unknown.
-    Laboratory(const RunInput& input, const peeling::Algorithm& algorithm, Depths depths = Depths::left_out,
-               int limit = 0);
+    MistakeRenderer(const RunInput& input, const peeling::Algorithm& algorithm, Depths depths = Depths::left_out,
+                    int limit = 0);
 
     [[nodiscard]] const Picture& right() const noexcept { return right_; }
     [[nodiscard]] const RightRun& right_run() const noexcept { return right_run_; }

@@ -1,5 +1,5 @@
-// tools/probe/dice.h - random numbers for the kit, computed with integers only, so that a kit has the same bits
-// everywhere.
+// tools/probe/random_generator.h - random numbers for the kit, computed with integers only, so that a kit has the same
+// bits everywhere.
 //
 // Source   xorshift64* (Vigna 2016, "An experimental exploration of Marsaglia's xorshift generators, scrambled").
 // Tests    tests/tools/probe/kit_test.cpp
@@ -8,9 +8,9 @@
 
 namespace strata::probe {
 
-class Dice {
+class RandomGenerator {
   public:
-    explicit constexpr Dice(std::uint64_t seed) noexcept : state_{seed * 0x9e3779b97f4a7c15u + 1} {}
+    explicit constexpr RandomGenerator(std::uint64_t seed) noexcept : state_{seed * 0x9e3779b97f4a7c15u + 1} {}
     constexpr std::uint32_t next() noexcept {
         state_ ^= state_ >> 12;
         state_ ^= state_ << 25;

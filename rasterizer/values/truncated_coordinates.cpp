@@ -1,5 +1,6 @@
-// rasterizer/values/cut_coordinates.cpp - interpolates texture coordinates as NV2A does (cut_coordinates.h).
-#include "rasterizer/values/cut_coordinates.h"
+// rasterizer/values/truncated_coordinates.cpp - interpolates texture coordinates as NV2A does
+// (truncated_coordinates.h).
+#include "rasterizer/values/truncated_coordinates.h"
 
 #include <algorithm>
 #include <bit>
@@ -17,7 +18,7 @@ struct OuterWeights {
     double b0, b2;
 };
 
-[[nodiscard]] OuterWeights outer_weights(const CutWeights& weights, const EdgeValues& e) noexcept {
+[[nodiscard]] OuterWeights outer_weights(const TruncatedWeights& weights, const EdgeValues& e) noexcept {
     const std::array<double, 3> b = with_remainder(weights.at(e));
     return {b[0], b[2]};
 }
@@ -27,10 +28,10 @@ struct OuterWeights {
 }
 
 // The terms of the sum, before they are multiplied by the weights.
-struct CutSum {
+struct TruncatedSum {
     double middle, first, last;
 
-    explicit CutSum(const std::array<float, 3>& u) noexcept
+    explicit TruncatedSum(const std::array<float, 3>& u) noexcept
         : middle{u[1]}, first{double{u[0]} - double{u[1]}}, last{double{u[2]} - double{u[1]}} {}
 
     [[nodiscard]] double at(const OuterWeights& b) const noexcept {
@@ -42,27 +43,27 @@ struct CutSum {
         // times 0 has small exponents but is still NaN.
         if (k < -400 || k > 400 || !std::isfinite(p0 + p2)) return (middle + p0) + p2;
         const double unit = power_of_two(k - 23), units = power_of_two(23 - k);
-        const auto cut = [units](double v) { return static_cast<double>(static_cast<std::int64_t>(v * units)); };
-        return ((cut(middle) + cut(p0)) + cut(p2)) * unit;
+        const auto truncated = [units](double v) { return static_cast<double>(static_cast<std::int64_t>(v * units)); };
+        return ((truncated(middle) + truncated(p0)) + truncated(p2)) * unit;
     }
 };
 
 }  // namespace
 }  // namespace strict
 
-void cut_coordinates(const std::array<float, 3>& u, const std::array<float, 3>& w, const TriangleLanes& lanes,
-                     const DepthHypothesis& hypothesis, float* out) noexcept {
+void truncated_coordinates(const std::array<float, 3>& u, const std::array<float, 3>& w, const TriangleLanes& lanes,
+                           const DepthHypothesis& hypothesis, float* out) noexcept {
     if (is_constant(u)) {
         std::fill_n(out, lanes.count, u[0]);
         return;
     }
-    const CutSum sum{u};
+    const TruncatedSum sum{u};
     const auto fill = [&](const auto& weights) {
         for (int i = 0; i < lanes.count; ++i)
-            out[i] = cut_to_binary32(sum.at(outer_weights(weights, lanes.edge_values(i))));
+            out[i] = truncate_to_binary32(sum.at(outer_weights(weights, lanes.edge_values(i))));
     };
     if (w[0] == w[1] && w[0] == w[2])
-        fill(CutWeights{lanes.edges->area(), hypothesis});
+        fill(TruncatedWeights{lanes.edges->area(), hypothesis});
     else
         fill(PerspectiveWeights{w, hypothesis});
 }

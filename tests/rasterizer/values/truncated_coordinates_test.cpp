@@ -1,6 +1,6 @@
-// Tests texture coordinates by truncated weights against the rule of cut_coordinates.h in rational arithmetic; the
-// remainder of rasterizer/reference/attributes.md 2.3 is a table of ties.
-#include "rasterizer/values/cut_coordinates.h"
+// Tests texture coordinates by truncated weights against the rule of truncated_coordinates.h in rational arithmetic;
+// the remainder of rasterizer/reference/attributes.md 2.3 is a table of ties.
+#include "rasterizer/values/truncated_coordinates.h"
 
 #include <catch2/catch.hpp>
 
@@ -20,11 +20,11 @@ constexpr int nowhere = -100000;  // stands in for the exponent of 0
     std::array<Rational, 3> b = barycentric(p, x, y, bits);
     const Rational area{abs(doubled_area(p[0], p[1], p[2]))};
     Rational sum;
-    for (Rational& share : b) sum += share = cut_to_bits(share * area, 24);
-    const Rational r = cut_to_bits((sum == power(floor_log2(sum)) ? Rational{1} : 1 - power(-31)) / sum, 29);
+    for (Rational& share : b) sum += share = truncate_to_bits(share * area, 24);
+    const Rational r = truncate_to_bits((sum == power(floor_log2(sum)) ? Rational{1} : 1 - power(-31)) / sum, 29);
     int largest = nowhere, shared = 0;
     for (Rational& share : b) {
-        share = cut_to_bits(share * r, 24);
+        share = truncate_to_bits(share * r, 24);
         largest = std::max(largest, exponent(share));
     }
     for (std::size_t i = 0; i < 3; ++i) shared |= exponent(b[i]) == largest ? 1 << i : 0;
@@ -39,7 +39,7 @@ constexpr int nowhere = -100000;  // stands in for the exponent of 0
     const std::array<Rational, 3> b = cut_shares(p, x, y);
     const Rational d0 = u[0] - u[1], d2 = u[2] - u[1];
     const int k = std::max({exponent(u[1]), exponent(b[0]) + exponent(d0), exponent(b[2]) + exponent(d2)});
-    return cut_to_bits(cut(u[1], k - 23) + cut(b[0] * d0, k - 23) + cut(b[2] * d2, k - 23), 24);
+    return truncate_to_bits(truncate(u[1], k - 23) + truncate(b[0] * d0, k - 23) + truncate(b[2] * d2, k - 23), 24);
 }
 
 // Result of the implementation at a pixel's centre.
@@ -48,7 +48,7 @@ constexpr int nowhere = -100000;  // stands in for the exponent of 0
     const auto px = static_cast<std::uint16_t>(x), py = static_cast<std::uint16_t>(y);
     const double unused = 0;
     float out = 0;
-    cut_coordinates(u, {1, 1, 1}, {&edges, bits, &px, &py, &unused, &unused, 1, true}, DepthHypothesis{}, &out);
+    truncated_coordinates(u, {1, 1, 1}, {&edges, bits, &px, &py, &unused, &unused, 1, true}, DepthHypothesis{}, &out);
     return out;
 }
 
@@ -108,8 +108,8 @@ TEST_CASE("a coordinate that all corners share is unchanged and infinities are a
 
 TEST_CASE("coordinates are summed this way only for equal w and only if the rules say so") {
     const RasterRules chip{.interpolation = {.texture_coordinates = CoordinateRule::cut_weights}};
-    CHECK(cuts_coordinates(chip, std::array{0.5f, 0.5f, 0.5f}));
-    CHECK_FALSE(cuts_coordinates(chip, std::array{0.5f, 0.5f, 0.25f}));
-    CHECK_FALSE(cuts_coordinates(chip, std::array{0.5f, 0.25f, 0.5f}));
-    CHECK_FALSE(cuts_coordinates(RasterRules{}, std::array{1.0f, 1.0f, 1.0f}));
+    CHECK(truncates_coordinates(chip, std::array{0.5f, 0.5f, 0.5f}));
+    CHECK_FALSE(truncates_coordinates(chip, std::array{0.5f, 0.5f, 0.25f}));
+    CHECK_FALSE(truncates_coordinates(chip, std::array{0.5f, 0.25f, 0.5f}));
+    CHECK_FALSE(truncates_coordinates(RasterRules{}, std::array{1.0f, 1.0f, 1.0f}));
 }

@@ -1,4 +1,4 @@
-// scenes/gltf/document/place.h - a position in a glTF file, and the function that throws an error there.
+// scenes/gltf/document/file_location.h - a position in a glTF file, and the function that throws an error there.
 #pragma once
 #include <string>
 #include <string_view>
@@ -8,7 +8,7 @@
 namespace strata::scenes {
 
 // `code` is the Khronos glTF validator's issue code for the same fault (its ISSUES.md), if it has one.
-struct Place {
+struct FileLocation {
     std::string file;
     std::string pointer;  // JSON pointer (RFC 6901), or "byte N" in a .glb
 
@@ -16,8 +16,8 @@ struct Place {
         throw InputError(file, pointer.empty() ? "/" : pointer, expected, found + " [" + std::string(code) + "]");
     }
     // `key` is inserted unchanged: the caller escapes a key from the file (RFC 6901).
-    [[nodiscard]] Place under(std::string_view key) const { return {file, pointer + "/" + std::string(key)}; }
-    [[nodiscard]] Place under(std::size_t index) const { return under(std::to_string(index)); }
+    [[nodiscard]] FileLocation under(std::string_view key) const { return {file, pointer + "/" + std::string(key)}; }
+    [[nodiscard]] FileLocation under(std::size_t index) const { return under(std::to_string(index)); }
 };
 
 // Makes text from a file printable on one line of a terminal: control characters become '?', and it is truncated after

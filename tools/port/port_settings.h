@@ -1,5 +1,5 @@
-// tools/port/way.h - the port's choices in which ports make mistakes. The defaults are correct; each mistake changes
-// one field.
+// tools/port/port_settings.h - the port's choices in which ports make mistakes. The defaults are correct; each mistake
+// changes one field.
 #pragma once
 #include <array>
 #include <string>
@@ -11,7 +11,7 @@ namespace strata::port {
 
 enum class Culling : std::uint8_t { as_listed, always_back, always_front };
 
-struct Way {
+struct PortSettings {
     // Vertices and the frame.
     GLenum origin = GL_UPPER_LEFT;  // row 0 of memory is the top
     bool other_clip_depth = false;  // the clip control does not match the matrices
@@ -55,11 +55,11 @@ struct Way {
 // A mistake, and an algorithm whose result it changes.
 struct Mistake {
     const char *name, *algorithm, *words;
-    void (*make)(Way&) = nullptr;
+    void (*make)(PortSettings&) = nullptr;
 };
 [[nodiscard]] const std::vector<Mistake>& mistakes();
 
 // Comma-separated names, to combine mistakes. Throws std::invalid_argument for an unknown name.
-[[nodiscard]] Way way_with(const std::string& names);
+[[nodiscard]] PortSettings settings_with(const std::string& names);
 
 }  // namespace strata::port

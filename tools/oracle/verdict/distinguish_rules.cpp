@@ -1,4 +1,4 @@
-#include "tools/oracle/verdict/telling.h"
+#include "tools/oracle/verdict/distinguish_rules.h"
 
 #include <algorithm>
 #include <mutex>
@@ -14,7 +14,7 @@ bool is_of_any_scene(const std::vector<Rule>& rules) noexcept {
 
 namespace {
 
-bool are_apart(const Reach& a, const Reach& b) noexcept {
+bool are_apart(const ReachableColor& a, const ReachableColor& b) noexcept {
     constexpr double seen = 2.0 / 255;
     for (std::size_t c = 0; c < 3; ++c)
         if (a[c].low > b[c].high + seen || b[c].low > a[c].high + seen) return true;
@@ -23,7 +23,7 @@ bool are_apart(const Reach& a, const Reach& b) noexcept {
 
 }  // namespace
 
-bool tells_apart(const SceneFragments& scene, const std::vector<std::vector<Rule>>& all) {
+bool distinguishes(const SceneFragments& scene, const std::vector<std::vector<Rule>>& all) {
     std::vector<std::vector<Rule>> ports = all;
     ports.emplace_back();  // the right structure
     const End end{Storage::unorm8, Source::stored, Rounding::nearest};
@@ -36,7 +36,7 @@ bool tells_apart(const SceneFragments& scene, const std::vector<std::vector<Rule
         std::vector<bool> own(n * n);
         for (std::size_t p = 0; p < tile.rect.area(); ++p) {
             const PixelList list = scene.at(tile, p);
-            std::vector<Reach> reaches;
+            std::vector<ReachableColor> reaches;
             for (const auto& rules : ports) reaches.push_back(compositor.reach(maker.with(rules, list, {})));
             for (std::size_t a = 0; a < n; ++a)
                 for (std::size_t b = a + 1; b < n; ++b)

@@ -1,6 +1,6 @@
 // Tests that mistakes are made as described: against options with the same effect, a plain loop over the pixels for
 // mistakes in the finished picture, and a loop over a stack of planes for blending.
-#include "tools/oracle/mistakes/laboratory.h"
+#include "tools/oracle/mistakes/mistake_renderer.h"
 
 #include <catch2/catch.hpp>
 
@@ -11,7 +11,7 @@
 
 using namespace strata;
 using namespace strata::oracle;
-using strata::test::Bench;
+using strata::test::SceneFixture;
 
 namespace {
 
@@ -26,13 +26,13 @@ bool is_equal(const Picture& a, const Picture& b) { return a.targets[0].codes ==
 
 TEST_CASE("the picture without a mistake is that of an ordinary run") {
     for (const char* name : {"showroom.dual", "showroom.weighted_average", "two_layers.front_to_back"}) {
-        const Bench bench{name};
-        CHECK(is_equal(bench.laboratory.right(), rendered(bench.opened)));
+        const SceneFixture bench{name};
+        CHECK(is_equal(bench.mistake_renderer.right(), rendered(bench.opened)));
     }
 }
 
 TEST_CASE("a mistake that is a choice of options makes the picture of those options") {
-    const Bench bench{"showroom.front_to_back"};
+    const SceneFixture bench{"showroom.front_to_back"};
     const auto by_options = [&](auto change) {
         OpenScene other = open(*find_suite_scene("showroom.front_to_back"));
         change(other);
@@ -55,16 +55,16 @@ TEST_CASE("a mistake that is a choice of options makes the picture of those opti
                                    mesh.indices[3 * t + c] = given[3 * (triangles - 1 - t) + c];
                        }
                    })));
-    const int enough = bench.laboratory.right_run().enough_passes;
+    const int enough = bench.mistake_renderer.right_run().enough_passes;
     CHECK(
         is_equal(bench.with("one_pass_too_few"), by_options([&](OpenScene& o) { o.options.max_passes = enough - 1; })));
-    CHECK(is_equal(bench.laboratory.right(), by_options([&](OpenScene& o) { o.options.max_passes = enough; })));
-    CHECK_FALSE(is_equal(bench.laboratory.right(), bench.with("one_pass_too_few")));
+    CHECK(is_equal(bench.mistake_renderer.right(), by_options([&](OpenScene& o) { o.options.max_passes = enough; })));
+    CHECK_FALSE(is_equal(bench.mistake_renderer.right(), bench.with("one_pass_too_few")));
 }
 
 TEST_CASE("a mistake of the finished picture moves or changes its pixels and nothing else") {
-    const Bench bench{"showroom.dual"};
-    const Target& right = bench.laboratory.right().targets[0];
+    const SceneFixture bench{"showroom.dual"};
+    const Target& right = bench.mistake_renderer.right().targets[0];
     const Picture flipped = bench.with("flipped_rows"), blue = bench.with("red_for_blue"),
                   moved = bench.with("one_pixel_right");
     int wrong = 0;
@@ -97,28 +97,28 @@ TEST_CASE("layers blended without transmittance add up") {
                                     : pipeline::Rgba{0.25f, 0.0625f, 1.0f, 0.015625f};
     for (int layer = 0; layer < 6; ++layer)
         for (std::size_t c = 0; c < 3; ++c) sum[c] += once[c] * once[3];
-    const Laboratory laboratory{opened.input(), *opened.algorithm};
-    const Picture picture = laboratory.with(*find_mistake("under_without_transmittance")).value();
+    const MistakeRenderer mistake_renderer{opened.input(), *opened.algorithm};
+    const Picture picture = mistake_renderer.with(*find_mistake("under_without_transmittance")).value();
     const Target& colors = picture.targets[0];
     const std::size_t centre = static_cast<std::size_t>(colors.height / 2 * colors.width + colors.width / 2);
     for (int c = 0; c < 3; ++c) CHECK(colors.value_at(centre, c) == double{sum[c]});
 }
 
 TEST_CASE("a mistake that a scene cannot have makes no picture") {
-    const Bench average{"showroom.weighted_average"}, random{"random.dual"};
-    CHECK_FALSE(average.laboratory.with(*find_mistake("one_pass_too_few")));
-    CHECK_FALSE(random.laboratory.with(*find_mistake("texture_upside_down")));
-    CHECK_FALSE(random.laboratory.with(*find_mistake("one_pass_too_many")));
+    const SceneFixture average{"showroom.weighted_average"}, random{"random.dual"};
+    CHECK_FALSE(average.mistake_renderer.with(*find_mistake("one_pass_too_few")));
+    CHECK_FALSE(random.mistake_renderer.with(*find_mistake("texture_upside_down")));
+    CHECK_FALSE(random.mistake_renderer.with(*find_mistake("one_pass_too_many")));
 }
 
 TEST_CASE("of two mistakes both are made and that of the finished picture is made last") {
-    const Bench bench{"showroom.dual"};
+    const SceneFixture bench{"showroom.dual"};
     const Picture both = bench.with("premultiplied_twice", "flipped_rows");
     CHECK(is_equal(both, changed(bench.with("premultiplied_twice"), *find_mistake("flipped_rows"))));
     CHECK_FALSE(is_equal(both, bench.with("flipped_rows")));
 }
 
 TEST_CASE("a peel that never ends is stopped") {
-    const Bench bench{"showroom.front_to_back"};
+    const SceneFixture bench{"showroom.front_to_back"};
     CHECK(bench.with("peels_again").targets[0].pixels() == 64 * 64);
 }

@@ -1,5 +1,5 @@
 // Tests which scenes distinguish mistakes: a scene with one layer hides those that are visible with many layers.
-#include "tools/oracle/verdict/telling.h"
+#include "tools/oracle/verdict/distinguish_rules.h"
 
 #include <catch2/catch.hpp>
 
@@ -14,10 +14,10 @@ TEST_CASE("a scene with many layers distinguishes mistakes and one without these
         ninth{{.kind = RuleKind::lost, .n = 8}};
     const OpenedScene deep{"showroom", 32, 32}, shallow{"teapot", 32, 24};
     const SceneFragments many = deep.fragments(), few = shallow.fragments();
-    CHECK(tells_apart(many, {second, reversed}));
-    CHECK_FALSE(tells_apart(many, {second, second}));
-    CHECK(tells_apart(few, {second, reversed}));
-    CHECK_FALSE(tells_apart(few, {second, ninth}));  // `ninth` changes nothing in this scene
+    CHECK(distinguishes(many, {second, reversed}));
+    CHECK_FALSE(distinguishes(many, {second, second}));
+    CHECK(distinguishes(few, {second, reversed}));
+    CHECK_FALSE(distinguishes(few, {second, ninth}));  // `ninth` changes nothing in this scene
 }
 
 TEST_CASE("a rule about one instance or material does not apply to other scenes") {

@@ -1,8 +1,8 @@
-#include "tools/oracle/mistakes/telling.h"
+#include "tools/oracle/mistakes/distinguishing_scene.h"
 
 #include <algorithm>
 
-#include "tools/oracle/mistakes/laboratory.h"
+#include "tools/oracle/mistakes/mistake_renderer.h"
 
 namespace strata::oracle {
 
@@ -12,13 +12,13 @@ bool is_one_picture(const Picture& a, const Picture& b) {
     return std::ranges::equal(a.targets, b.targets, {}, &Target::codes, &Target::codes);
 }
 
-bool tells_apart(const SuiteScene& scene, std::span<const Mistake* const> mistakes) {
+bool distinguishes(const SuiteScene& scene, std::span<const Mistake* const> mistakes) {
     const OpenScene opened = open(scene);
-    const Laboratory laboratory{opened.input(), *opened.algorithm};
+    const MistakeRenderer mistake_renderer{opened.input(), *opened.algorithm};
     std::vector<Picture> pictures;
     for (const Mistake* mistake : mistakes) {
-        auto picture = laboratory.with(*mistake);
-        if (!picture || is_one_picture(*picture, laboratory.right())) return false;
+        auto picture = mistake_renderer.with(*mistake);
+        if (!picture || is_one_picture(*picture, mistake_renderer.right())) return false;
         if (std::ranges::any_of(pictures, [&](const Picture& p) { return is_one_picture(p, *picture); })) return false;
         pictures.push_back(*std::move(picture));
     }
@@ -30,7 +30,7 @@ bool tells_apart(const SuiteScene& scene, std::span<const Mistake* const> mistak
 const SuiteScene* distinguishing_scene(std::span<const Mistake* const> mistakes) {
     if (mistakes.size() < 2) return nullptr;
     for (const SuiteScene& scene : suite())
-        if (tells_apart(scene, mistakes)) return &scene;
+        if (distinguishes(scene, mistakes)) return &scene;
     return nullptr;
 }
 

@@ -1,7 +1,7 @@
-// tools/oracle/verdict/telling.h - tests whether a scene distinguishes mistakes that give equal pictures of another
-// scene.
+// tools/oracle/verdict/distinguish_rules.h - tests whether a scene distinguishes mistakes that give equal pictures of
+// another scene.
 //
-// Tests    tests/tools/oracle/verdict/telling_test.cpp
+// Tests    tests/tools/oracle/verdict/distinguish_rules_test.cpp
 #pragma once
 #include <vector>
 
@@ -15,6 +15,6 @@ class SceneFragments;
 [[nodiscard]] bool is_of_any_scene(const std::vector<Rule>& rules) noexcept;
 
 // True if 8-bit ports with each of these mistakes, and a right one, all differ from each other by more than rounding.
-[[nodiscard]] bool tells_apart(const SceneFragments& scene, const std::vector<std::vector<Rule>>& all);
+[[nodiscard]] bool distinguishes(const SceneFragments& scene, const std::vector<std::vector<Rule>>& all);
 
 }  // namespace strata::oracle::verdict

@@ -1,4 +1,4 @@
-// tools/lab/hard_cases/hard_seen.h - the visible result of a renderer at each pixel (triangles, their layers, the
+// tools/lab/hard_cases/hard_result.h - the visible result of a renderer at each pixel (triangles, their layers, the
 // colour), and the differences of two such results.
 //
 // Rule     A fragment's place is the number of its layer from near to far; fragments of one layer share it, and a
@@ -6,7 +6,7 @@
 //          them composites it. Two fragments of a pixel that both composite are reordered if their relation (in front,
 //          behind, equal) changes. The colour change is the largest of three channels, at pixels without gains and
 //          losses; the depth change is the largest of a fragment that both composite.
-// Tests    tests/tools/hard_cases/hard_seen_test.cpp
+// Tests    tests/tools/hard_cases/hard_result_test.cpp
 #pragma once
 #include <array>
 #include <compare>
@@ -21,21 +21,21 @@ class Renderer;
 
 namespace strata::tools {
 
-struct SeenFragment {
+struct ResultFragment {
     std::uint32_t primitive = 0;
-    int place = -1;    // -1: never composited
+    int layer = -1;    // -1: never composited
     double depth = 0;  // as stored, of the depth range 0 to 1
-    friend auto operator<=>(const SeenFragment&, const SeenFragment&) = default;
+    friend auto operator<=>(const ResultFragment&, const ResultFragment&) = default;
 };
 
-struct SeenPixel {
-    std::vector<SeenFragment> fragments;  // all visible ones, sorted
-    int layers = 0;                       // composited layers, counting repetitions
+struct ResultPixel {
+    std::vector<ResultFragment> fragments;  // all visible ones, sorted
+    int layers = 0;                         // composited layers, counting repetitions
     std::array<double, 3> color{};
 };
 
 // Row by row.
-using Seen = std::vector<SeenPixel>;
+using ResultPixels = std::vector<ResultPixel>;
 
 struct Changes {
     std::uint64_t gained = 0, lost = 0, reordered = 0;
@@ -47,20 +47,20 @@ struct Changes {
     friend bool operator==(const Changes&, const Changes&) = default;
 };
 
-[[nodiscard]] Changes changes(const SeenPixel& before, const SeenPixel& after);
+[[nodiscard]] Changes changes(const ResultPixel& before, const ResultPixel& after);
 
-enum class Shown : std::uint8_t { in_order, in_any_order };
+enum class FragmentOrderMatch : std::uint8_t { in_order, in_any_order };
 // True if the pixel composites exactly the fragments of `exact`, each once, and, if `what` requires it, in their order.
-[[nodiscard]] bool shows(const SeenPixel& pixel, const SeenPixel& exact, Shown what);
+[[nodiscard]] bool matches(const ResultPixel& pixel, const ResultPixel& exact, FragmentOrderMatch what);
 
-struct Looked {
-    Seen seen;
-    std::string refusal;           // the message; empty: it ran
-    bool names_misplaced = false;  // a diagnostic explains misplaced fragments
+struct RenderedPixels {
+    ResultPixels pixels;
+    std::string refusal;             // the message; empty: it ran
+    bool reports_misplaced = false;  // a diagnostic explains misplaced fragments
 };
-[[nodiscard]] Looked look(peeling::Renderer& renderer, const peeling::Algorithm& algorithm, int width);
+[[nodiscard]] RenderedPixels render(peeling::Renderer& renderer, const peeling::Algorithm& algorithm, int width);
 // The same without the algorithm's passes: layers are the distinct stored depths, and each is the first submitted
 // fragment of its depth.
-[[nodiscard]] Looked look_at_depths(peeling::Renderer& renderer, const peeling::Algorithm& algorithm);
+[[nodiscard]] RenderedPixels result_of_depths(peeling::Renderer& renderer, const peeling::Algorithm& algorithm);
 
 }  // namespace strata::tools

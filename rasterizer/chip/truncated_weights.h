@@ -1,4 +1,5 @@
-// rasterizer/chip/cut_weight.h - the weights of NV2A's interpolator: edge values times a reciprocal, both truncated.
+// rasterizer/chip/truncated_weights.h - the weights of NV2A's interpolator: edge values times a reciprocal, both
+// truncated.
 //
 // Rule     WeightRule::cut_edges: e' = e truncated to 24 significant bits; S = (e'0 + e'1) + e'2; r = 1 / S if S is a
 //          power of two, else (1 / S)(1 - d 2^-32) truncated to m bits; b = e' r truncated to 24 bits.
@@ -24,7 +25,7 @@ namespace strata::rasterizer {
 inline namespace strict {
 
 // b = mantissa * 2^exponent; 2^23 <= mantissa < 2^24, or 0.
-struct CutWeight {
+struct TruncatedWeight {
     std::uint32_t mantissa = 0;
     int exponent = 0;
 };
@@ -33,10 +34,10 @@ struct CutWeight {
     return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
 }
 
-[[nodiscard]] constexpr double value(CutWeight b) noexcept { return b.mantissa * power_of_two(b.exponent); }
+[[nodiscard]] constexpr double value(TruncatedWeight b) noexcept { return b.mantissa * power_of_two(b.exponent); }
 
 // v truncated toward zero to its `bits` leading bits. For normal numbers of binary32, and 0.
-[[nodiscard]] constexpr double cut_bits(double v, int bits) noexcept {
+[[nodiscard]] constexpr double truncate_bits(double v, int bits) noexcept {
     return std::bit_cast<double>(std::bit_cast<std::uint64_t>(v) & ~std::uint64_t{0} << (53 - bits));
 }
 
@@ -46,19 +47,19 @@ struct CutWeight {
 }
 
 // An edge value truncated to 24 bits; it may be negative outside the triangle.
-[[nodiscard]] constexpr double cut_edge(std::int64_t e) noexcept {
+[[nodiscard]] constexpr double truncated_edge(std::int64_t e) noexcept {
     const auto size = static_cast<std::uint64_t>(e < 0 ? -e : e);
     // Below 2^53 binary64 represents it exactly; above, bits that the truncation drops are cleared first, so that
     // nothing rounds up.
     const auto kept = static_cast<double>(size >> 53 == 0 ? size : size & ~std::uint64_t{0xfffffff});
-    return e < 0 ? -cut_bits(kept, 24) : cut_bits(kept, 24);
+    return e < 0 ? -truncate_bits(kept, 24) : truncate_bits(kept, 24);
 }
 
 // r for a sum of truncated edge values, or of their products with 1 / w.
-[[nodiscard]] constexpr double cut_reciprocal(double sum, const DepthHypothesis& hypothesis) noexcept {
+[[nodiscard]] constexpr double truncated_reciprocal(double sum, const DepthHypothesis& hypothesis) noexcept {
     const double exact = 1.0 / sum;
     if (std::bit_cast<std::uint64_t>(sum) << 12 == 0) return exact;
-    return cut_bits(exact * (1.0 - hypothesis.reciprocal_deficit * 0x1p-32), hypothesis.reciprocal_bits);
+    return truncate_bits(exact * (1.0 - hypothesis.reciprocal_deficit * 0x1p-32), hypothesis.reciprocal_bits);
 }
 
 // The vertex whose weight is 1 - (the two others) for colours and texture coordinates: the one with the largest
@@ -80,9 +81,9 @@ struct CutWeight {
 }
 
 // 1 / area truncated to `bits` significant bits: computed once per triangle, in integers.
-class CutReciprocal {
+class TruncatedReciprocal {
   public:
-    explicit constexpr CutReciprocal(std::uint64_t area, int bits = 28) noexcept
+    explicit constexpr TruncatedReciprocal(std::uint64_t area, int bits = 28) noexcept
         : exponent_{-(bits + static_cast<int>(std::bit_width(area)) - 1)} {
         const int shift = -exponent_, first = shift < 62 ? shift : 62;
         std::uint64_t rest = (std::uint64_t{1} << first) % area;
@@ -97,7 +98,7 @@ class CutReciprocal {
         }
     }
     // b = e / area for an edge value 0 <= e <= area, truncated to 24 bits.
-    [[nodiscard]] constexpr CutWeight weight(std::uint64_t e) const noexcept {
+    [[nodiscard]] constexpr TruncatedWeight weight(std::uint64_t e) const noexcept {
         if (e == 0) return {};
         int exponent = exponent_;
         std::uint64_t product = 0;
@@ -119,9 +120,9 @@ class CutReciprocal {
 
 // The three weights at a fragment, each a binary64 of 24 significant bits; constructed once per triangle for its
 // WeightRule.
-class CutWeights {
+class TruncatedWeights {
   public:
-    constexpr CutWeights(std::int64_t area, const DepthHypothesis& hypothesis) noexcept
+    constexpr TruncatedWeights(std::int64_t area, const DepthHypothesis& hypothesis) noexcept
         : hypothesis_{hypothesis},
           reciprocal_{hypothesis.weights == WeightRule::area ? static_cast<std::uint64_t>(area) : 1,
                       hypothesis.reciprocal_bits} {}
@@ -133,15 +134,15 @@ class CutWeights {
                                 : value(reciprocal_.weight(static_cast<std::uint64_t>(e[i])));
             return b;
         }
-        for (std::size_t i = 0; i < 3; ++i) b[i] = cut_edge(e[i]);
-        const double r = cut_reciprocal((b[0] + b[1]) + b[2], hypothesis_);
-        for (double& each : b) each = cut_bits(each * r, 24);
+        for (std::size_t i = 0; i < 3; ++i) b[i] = truncated_edge(e[i]);
+        const double r = truncated_reciprocal((b[0] + b[1]) + b[2], hypothesis_);
+        for (double& each : b) each = truncate_bits(each * r, 24);
         return b;
     }
 
   private:
     DepthHypothesis hypothesis_;
-    CutReciprocal reciprocal_;  // of the area, for WeightRule::area
+    TruncatedReciprocal reciprocal_;  // of the area, for WeightRule::area
 };
 
 }  // namespace strict

@@ -1,7 +1,7 @@
-// tools/oracle/mistakes/telling.h - finds a scene of the suite that distinguishes mistakes with equal images of another
-// scene.
+// tools/oracle/mistakes/distinguishing_scene.h - finds a scene of the suite that distinguishes mistakes with equal
+// images of another scene.
 //
-// Tests    tests/tools/oracle/mistakes/telling_test.cpp
+// Tests    tests/tools/oracle/mistakes/distinguishing_scene_test.cpp
 #pragma once
 #include <span>
 

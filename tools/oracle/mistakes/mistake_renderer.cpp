@@ -1,4 +1,4 @@
-#include "tools/oracle/mistakes/laboratory.h"
+#include "tools/oracle/mistakes/mistake_renderer.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -25,7 +25,7 @@ using Targets = std::vector<Target>;
 
 // The published target with the changes to the finished image applied, because a port may make them in its last pass.
 // It keeps its name.
-Targets finished(const PassShown& last, const PassShown& published, const Experiment& e) {
+Targets finished(const PassReport& last, const PassReport& published, const Experiment& e) {
     Targets targets;
     for (const NamedImage& target : last.targets) {
         if (e.afterwards.empty() || target.image.codes != published.targets[0].image.codes) continue;
@@ -38,13 +38,13 @@ Targets finished(const PassShown& last, const PassShown& published, const Experi
 
 }  // namespace
 
-Laboratory::Laboratory(const RunInput& input, const peeling::Algorithm& algorithm, Depths depths, int limit)
+MistakeRenderer::MistakeRenderer(const RunInput& input, const peeling::Algorithm& algorithm, Depths depths, int limit)
     : input_{input}, algorithm_{algorithm}, depths_{depths}, limit_{limit} {
     right_ = run(experiment(), &right_run_);
     find_enough_passes();
 }
 
-Experiment Laboratory::experiment() const {
+Experiment MistakeRenderer::experiment() const {
     Experiment e{.list = &input_.list, .view = input_.view, .profile = input_.profile, .options = input_.options};
     e.algorithm = &algorithm_;
     e.right = right_run_;
@@ -53,7 +53,7 @@ Experiment Laboratory::experiment() const {
     return e;
 }
 
-Picture Laboratory::run(const Experiment& e, RightRun* counted) const {
+Picture MistakeRenderer::run(const Experiment& e, RightRun* counted) const {
     peeling::Renderer renderer{*e.list, e.view, e.profile, e.options};
     const pipeline::Alteration alteration = combined(e);
     peeling::RenderResult result =
@@ -73,7 +73,7 @@ Picture Laboratory::run(const Experiment& e, RightRun* counted) const {
 
 // An iteration has at most seven passes, and the last one of most peels finds nothing, so fewer than eight runs
 // suffice.
-void Laboratory::find_enough_passes() {
+void MistakeRenderer::find_enough_passes() {
     right_run_.enough_passes = right_run_.passes;
     for (int passes = right_run_.passes - 1; passes >= 1; --passes) {
         Experiment e = experiment();
@@ -83,7 +83,7 @@ void Laboratory::find_enough_passes() {
     }
 }
 
-std::optional<Experiment> Laboratory::experiment(std::span<const Mistake* const> mistakes) const {
+std::optional<Experiment> MistakeRenderer::experiment(std::span<const Mistake* const> mistakes) const {
     Experiment e = experiment();
     const int given_limit = e.options.max_passes;
     for (const Mistake* mistake : mistakes)
@@ -95,20 +95,20 @@ std::optional<Experiment> Laboratory::experiment(std::span<const Mistake* const>
     return e;
 }
 
-std::optional<Picture> Laboratory::with(std::span<const Mistake* const> mistakes) const {
+std::optional<Picture> MistakeRenderer::with(std::span<const Mistake* const> mistakes) const {
     const std::optional<Experiment> e = experiment(mistakes);
     return e ? made([&] { return run(*e); }) : std::nullopt;
 }
 
-std::optional<PassAgreement> Laboratory::compare_passes(std::span<const Mistake* const> mistakes,
-                                                        const std::vector<PassPicture>& candidate) const {
+std::optional<PassAgreement> MistakeRenderer::compare_passes(std::span<const Mistake* const> mistakes,
+                                                             const std::vector<PassPicture>& candidate) const {
     const std::optional<Experiment> e = experiment(mistakes);
     if (!e) return std::nullopt;
     const pipeline::Alteration alteration = combined(*e);
     return made([&] {
         PassEvidence evidence{candidate};
-        std::optional<PassShown> last;
-        const auto add = [&](PassShown&& pass) {
+        std::optional<PassReport> last;
+        const auto add = [&](PassReport&& pass) {
             if (last) evidence.add(*last, pass.kind == PassKind::published ? finished(*last, pass, *e) : Targets{});
             last = std::move(pass);
         };
@@ -118,7 +118,7 @@ std::optional<PassAgreement> Laboratory::compare_passes(std::span<const Mistake*
     });
 }
 
-std::optional<Picture> Laboratory::with(const Mistake& mistake) const {
+std::optional<Picture> MistakeRenderer::with(const Mistake& mistake) const {
     const Mistake* const one[] = {&mistake};
     return with(one);
 }

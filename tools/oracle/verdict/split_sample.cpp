@@ -1,30 +1,30 @@
-#include "tools/oracle/verdict/parted.h"
+#include "tools/oracle/verdict/split_sample.h"
 
 #include <algorithm>
 
 namespace strata::oracle::verdict {
 
-Parted parted(const Sample& sample, const Hypothesis& closest) {
+SplitSample split_by_account(const Sample& sample, const Hypothesis& closest) {
     const Compositor compositor{closest};
     StackMaker maker{sample.setting()};
-    Parted parts;
+    SplitSample parts;
     for (const SampledPixel& pixel : sample.pixels()) {
-        PartedPixel made{&pixel, stacked({}, pixel, maker)};
+        SplitPixel made{&pixel, stacked({}, pixel, maker)};
         (reaching(compositor, made.right, maker.steps()) == nullptr ? parts.wrong : parts.right)
             .push_back(std::move(made));
     }
     return parts;
 }
 
-bool is_unchanged(const StackedPixel& made, const PartedPixel& pixel) {
+bool is_unchanged(const StackedPixel& made, const SplitPixel& pixel) {
     return std::ranges::equal(made.stacks, pixel.right.stacks, [](const Stack& a, const Stack& b) {
         return a.layers == b.layers && a.background == b.background && a.is_linear == b.is_linear &&
                a.finish == b.finish && a.mixing == b.mixing;
     });
 }
 
-std::vector<const PartedPixel*> thinned(const std::vector<PartedPixel>& pixels, std::size_t most) {
-    std::vector<const PartedPixel*> some;
+std::vector<const SplitPixel*> thinned(const std::vector<SplitPixel>& pixels, std::size_t most) {
+    std::vector<const SplitPixel*> some;
     const std::size_t step = pixels.size() / most + 1;
     for (std::size_t i = 0; i < pixels.size(); i += step) some.push_back(&pixels[i]);
     return some;
