@@ -19,13 +19,13 @@ enum class Overflow : std::uint8_t { drop_new, drop_far, blend };
 inline constexpr int most_nodes = 8, most_stochastic_samples = 8;
 
 struct AlgorithmOptions {
-    Weight weight = Weight::eq10;        // weighted_blended, weighted_blended_shared, tails
-    int nodes = 4;                       // k, nodes per pixel: multi_layer, adaptive, atomic_loop, hybrid_transparency
-    std::optional<Tail> tail{};          // atomic_loop (blend), hybrid_transparency (average), front_to_back (none)
-    int pixel_nodes = 0;                 // linked_list: nodes per pixel; 0: no limit
-    int frame_nodes = 0;                 // linked_list: nodes per frame; 0: no limit
-    Overflow overflow{};                 // linked_list
-    int moments = 4;                     // moments: 4, 6 or 8
+    Weight weight = Weight::eq10;  // weighted_blended, weighted_blended_shared, tails
+    int nodes = 4;                 // k, nodes per pixel: multi_layer, adaptive, atomic_loop, hybrid_transparency
+    std::optional<Tail> tail{};    // atomic_loop (blend), hybrid_transparency (average), front_to_back and dual (none)
+    int pixel_nodes = 0;           // linked_list: nodes per pixel; 0: no limit
+    int frame_nodes = 0;           // linked_list: nodes per frame; 0: no limit
+    Overflow overflow{};           // linked_list
+    int moments = 4;               // moments: 4, 6 or 8
     std::optional<float> moment_bias{};  // moments: share of a fixed distribution, 0 to 1; default by `moments`
     float overestimation = 0.25f;        // moments: share of its own absorbance that dims a fragment
     int stochastic_samples = 4;          // stochastic: samples per pixel

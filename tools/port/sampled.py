@@ -56,7 +56,8 @@ def resolved(build, folder, words, profile, driver, shading):
                "--interpolate", shading, "--picture-only"])
     wrong = 0
     for name in pack.results:
-        # Its first pass tests depth before its program, and llvmpipe's centroid is then of the samples that pass: no rule of the profile.
+        # With the centroid front_to_back differed by 5 pixels of one teapot picture. The cause is not known; perhaps llvmpipe takes the
+        # centroid of the samples that pass an early depth test.
         if shading == "centroid" and name == "front_to_back":
             continue
         picture = folder / f"{name}.exr"
