@@ -373,17 +373,11 @@ TEST_CASE("a pass that the profile lacks throws Refused from every execution") {
         state.ordered_rmw = true;
         static_cast<void>(region.full_screen(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
     };
-    for (const Execution execution : {Execution::literal, Execution::replay}) {
-        std::string message;
-        try {
-            static_cast<void>(execute(test, body, execution));
-        } catch (const Refused& refused) {
-            message = refused.what();
-        }
-        CHECK(message ==
-              "profile geforce8 has no ordered read-modify-write of render targets (STRATA_ordered_rmw); use ideal or "
-              "direct3d11");
-    }
+    for (const Execution execution : {Execution::literal, Execution::replay})
+        CHECK_THROWS_MATCHES(
+            static_cast<void>(execute(test, body, execution)), Refused,
+            Catch::Message("profile geforce8 has no ordered read-modify-write of render targets (STRATA_ordered_rmw); "
+                           "use ideal or direct3d11"));
 }
 
 TEST_CASE("faults of tiles add up to those of the frame with the first pixel in row-major order") {
