@@ -204,7 +204,7 @@ LoadedSample Stages::loaded_sample() const noexcept {
     return kind_ == PassKind::geometry ? samples.geometry : samples.full_screen;
 }
 
-// Before the first load nobody may write, and after the last one everybody may: this is called at both ends of a pass.
+// Called at both ends of a pass that loads other samples: each waits for all, so that loads see the passes before it.
 void Stages::meet_samples(const PassState& state) const {
     if (loaded_sample() == LoadedSample::own || std::ranges::none_of(state.reads, &Target::exists)) return;
     if (state.ordered_rmw)
