@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -145,21 +146,30 @@ struct SampledRenderer::State {
     void run_jointly(std::vector<RenderResult>& results, const Run& run) {
         SampleGroup group{sampling.samples};
         std::vector<std::exception_ptr> errors(results.size());
+        const auto run_sample = [&](std::size_t number) {
+            Instruments joint;
+            joint.samples = {&group, static_cast<int>(number), sampling.loads, sampling.composites};
+            try {
+                results[number] = run(*renderers[number], number, joint);
+                if (results[number].outcome == Outcome::refused) group.abandon();
+            } catch (const SampleGroup::Abandoned&) {
+            } catch (...) {
+                errors[number] = std::current_exception();
+                group.abandon();
+            }
+        };
         std::vector<std::thread> threads;
-        for (std::size_t number = 0; number < results.size(); ++number)
-            threads.emplace_back([&, number] {
-                Instruments joint;
-                joint.samples = {&group, static_cast<int>(number), sampling.loads, sampling.composites};
-                try {
-                    results[number] = run(*renderers[number], number, joint);
-                    if (results[number].outcome == Outcome::refused) group.abandon();
-                } catch (const SampleGroup::Abandoned&) {
-                } catch (...) {
-                    errors[number] = std::current_exception();
-                    group.abandon();
-                }
-            });
+        std::string shortage;
+        try {
+            for (std::size_t number = 0; number < results.size(); ++number) threads.emplace_back(run_sample, number);
+        } catch (const std::exception& error) {  // the system refuses a thread: those that wait for it must end
+            shortage = error.what();
+            group.abandon();
+        }
         for (std::thread& thread : threads) thread.join();
+        if (!shortage.empty())
+            throw std::runtime_error("samples that load one another need " + std::to_string(results.size()) +
+                                     " threads at once: " + shortage);
         for (const std::exception_ptr& error : errors)
             if (error) std::rethrow_exception(error);
     }

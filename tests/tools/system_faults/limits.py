@@ -19,6 +19,7 @@ USER = 61000 + os.getpid() % 4000  # a user without processes
 MB = 1 << 20
 MAIN_BEGINS = 21 * MB  # address space of the program and its libraries before main() starts
 FRAME = ["render", "random:triangles=300", "--size", "96x64", "--no-audit"]
+JOINT = FRAME + ["--samples", "4", "--load-sample", "0", "--max-passes", "8", "-o", "out.png"]  # a thread per sample at once
 OUTPUTS = [["--stats", "out.json"], ["-o", "out.png"], ["-o", "out.exr"]]
 
 
@@ -57,12 +58,15 @@ def fault(program, root, words, limit, whole):
         # The dynamic loader may have no address space for the libraries, or a library's initializer none even for an exception; then these print the
         # message.
         is_loader = status == 127 and "error while loading shared libraries" in told or (
-            status == -6 and told.startswith("terminate called without an active exception") and limit[1] < MAIN_BEGINS)
+            status == -6 and told.startswith("terminate called without an active exception")
+            and limit[0] == resource.RLIMIT_AS and limit[1] < MAIN_BEGINS)
         wrong = left or not (is_loader or (status == 3 and len(lines) == 1))
     return f"{status}: {told}, leaves {sorted(left)}" if wrong else "", status
 
 
 def cases(quick):
+    for most in (1, 3, 6, 40) if quick else range(1, 33):
+        yield JOINT, (resource.RLIMIT_NPROC, most)
     for output in OUTPUTS:
         for threads in ("1", "4", "1000"):
             words = FRAME + ["--threads", threads] + output
@@ -89,10 +93,10 @@ def main():
             shutil.copy(file, place)
         expected = {}
         for words, limit in cases("--all" not in sys.argv):
-            key = " ".join(words[-2:])
+            key = " ".join(words)
             if key not in expected:
                 clean = tempfile.mkdtemp(dir=root)
-                status, told = run(home / "strata", clean, FRAME + words[-2:])
+                status, told = run(home / "strata", clean, words)
                 if status != 0:
                     sys.exit(f"limits.py: without a limit: {status}: {told}")
                 expected[key] = content(clean)
