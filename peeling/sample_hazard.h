@@ -2,10 +2,9 @@
 // load what another sample has stored.
 //
 // Rule     A sample's true layers are the distinct keys of its own fragments before the opaque surface, evaluated at
-// the
-//          sample. Lost: never composited; doubled: composited more than once; misplaced: composited behind a
-//          farther one. A sample with any of them is at a silhouette if the samples of its pixel have different
-//          numbers of fragments, at an inner edge if they have the same number but not the same triangles, else inside.
+//          the sample. Lost: never composited; doubled: composited more than once; misplaced: composited behind a
+//          farther one. A sample with any of them is at a silhouette if the samples of its pixel have different numbers
+//          of fragments, at an inner edge if they have the same number but not the same triangles, else inside.
 // Source   pipeline/reference/fragment-stages.md 13.5; peel_errors.h.
 // Tests    tests/peeling/sample_hazard_test.cpp
 #pragma once

@@ -2,10 +2,9 @@
 // colours, texture coordinates and the w buffer.
 //
 // Rule     q_i = |1 / w_i| truncated to 24 bits; e' truncated as in truncated_weights.h; S = the sum of the exact
-// products
-//          |e'_i| q_i, each truncated to a multiple of 2^(ex - 28), where ex is the largest of their exponents; r of S
-//          as in truncated_weights.h; p_i = |e'_i| q_i truncated to 25 bits; b_i = p_i r truncated to 24 bits; the
-//          remainder vertex (that of colours) takes 1 - (b' + b'').
+//          products |e'_i| q_i, each truncated to a multiple of 2^(ex - 28), where ex is the largest of their
+//          exponents; r of S as in truncated_weights.h; p_i = |e'_i| q_i truncated to 25 bits; b_i = p_i r truncated to
+//          24 bits; the remainder vertex (that of colours) takes 1 - (b' + b'').
 // Source   rasterizer/reference/chip-float-depth.md 4.1 and 7; the last bits of p, q or r are not certain (4.4 there).
 // Numbers  Products of 24 bits and S, which has 31, are exact in binary64; 1 - (b' + b'') is rounded. A corner's edge
 //          value and its w have the same sign wherever the triangle is drawn (coverage.md 5.8), so magnitudes suffice.

@@ -2,8 +2,7 @@
 // binary64 at a time. For *_simd.cpp only, like weights-inl.h.
 //
 // Rule     The operations and their order are those of TruncatedWeights, PerspectiveWeights and WindowZ24. Exponents
-// are
-//          compared as powers of two, which a bit mask extracts; truncation is a bit mask, or Trunc of an exactly
+//          are compared as powers of two, which a bit mask extracts; truncation is a bit mask, or Trunc of an exactly
 //          scaled number.
 // Numbers  chip_lanes.h. Lanes that the triangle does not cover may contain any value; their results are not used.
 // Tests    tests/rasterizer/values/chip_lanes_test.cpp

@@ -1,12 +1,11 @@
 // rasterizer/values/truncated_coordinates.h - texture coordinates as NV2A (GeForce3 class) interpolates them.
 //
 // Rule     Weights b as in truncated_weights.h; the vertex that takes the remainder of colours has 1 - (the two others)
-// here
-//          too. u = u1 + b0 (u0 - u1) + b2 (u2 - u1): the three terms are truncated toward zero to multiples of 2^(k -
-//          23) and added, and the sum is truncated to binary32. k is the largest exponent of the terms; the exponent of
-//          a product is the sum of its factors' exponents. If the three corner values have the same bits, the result is
-//          that value. If w differs: the exact plane, or with PerspectiveCoordinates::cut_products the same sum with
-//          the weights of perspective_weights.h.
+//          here too. u = u1 + b0 (u0 - u1) + b2 (u2 - u1): the three terms are truncated toward zero to multiples of
+//          2^(k - 23) and added, and the sum is truncated to binary32. k is the largest exponent of the terms; the
+//          exponent of a product is the sum of its factors' exponents. If the three corner values have the same bits,
+//          the result is that value. If w differs: the exact plane, or with PerspectiveCoordinates::cut_products the
+//          same sum with the weights of perspective_weights.h.
 // Source   Fitted to hardware captures by this project: the sign of 314 coordinates that are 0 except for rounding
 //          (ClipPlane), 40,960 coordinates that are integers (checkerboards of CombinerOps and SpecialInputs), 52
 //          shadow comparisons: 0 wrong.

@@ -2,10 +2,9 @@
 // order shows the others, which are behind them.
 //
 // Rule     none: the tail is not shown. blend: its fragments are blended OVER the colour behind them, usually the
-// opaque
-//          one, in submission order, in the frame's colour format. average: their colour is that of weighted_average;
-//          weighted: that of weighted_blended. The sums of the last two are stored as halves, or as binary32 if the
-//          frame's colour format is rgba32f.
+//          opaque one, in submission order, in the frame's colour format. average: their colour is that of
+//          weighted_average; weighted: that of weighted_blended. The sums of the last two are stored as halves, or as
+//          binary32 if the frame's colour format is rgba32f.
 // Source   peeling/reference/algorithms.md 21.3.
 // Tests    tests/peeling/algorithms/atomic_loop_test.cpp
 #pragma once

@@ -2,8 +2,7 @@
 // killed.
 //
 // Why      Text rather than SQLite: people and jq read a journal while the sweep writes it, journals of shards are
-// joined
-//          by concatenating them, and a killed process loses at most the line that it was writing.
+//          joined by concatenating them, and a killed process loses at most the line that it was writing.
 // Rule     A line is a JSON object whose last key, `line_digest`, is the XXH3-128 of the line's text before it. A line
 //          with another digest, or none, was changed after it was written, and is ignored. A last line without a
 //          newline was truncated when the process was killed. Each line is on disk (fsync) before the next cell runs.
