@@ -182,7 +182,8 @@ struct SampledRenderer::State {
             set_sample(own.raster, profile.sample_positions, sampling.samples, number);
         else if (!own.raster.sample)
             own.raster.interpolation = rasterizer::Interpolation::sample, own.raster.sample_coverage = {};
-        // No part of a joint frame could be run again alone for the audit.
+        // No part of a joint frame can be run again alone, so its audit holds all fragments, whatever the limit of
+        // memory.
         if (sampling.is_joint()) own.threads = 1, own.fragment_memory = joint_memory;
         renderer = std::make_unique<Renderer>(list, view, profile, own);
         return *renderer;
