@@ -59,12 +59,14 @@ void add_algorithm_options(CLI::App& app, AlgorithmOptions& options) {
         to_count);
     add_choice(app, options.overflow, "--overflow", overflows,
                "what linked_list does with fragments that find no node (default drop-new)");
-    add_choice(app, options.moments, "--moments", moment_counts, "power moments of moments (default 4)");
-    add_option(
-        app, options.moment_bias,
-        {"--moment-bias", "SHARE", "share of fixed moments in moments (default 5e-7, 5e-6 or 5e-5 by their number)",
-         "a number from 0 to 1"},
-        to_share);
+    add_choice(app, options.moments, "--moments", moment_counts,
+               "power moments of moments and moments_quantized (default 4)");
+    add_option(app, options.moment_bias,
+               {"--moment-bias", "SHARE",
+                "share of fixed moments in moments (default 5e-7, 5e-6 or 5e-5 by their number; of moments_quantized "
+                "6e-5, 6e-4 or 2.5e-3)",
+                "a number from 0 to 1"},
+               to_share);
     add_option(
         app, options.overestimation,
         {"--overestimation", "SHARE",
