@@ -38,6 +38,7 @@ struct Mistake {
 [[nodiscard]] std::span<const Mistake> mistakes_of_steps();
 [[nodiscard]] std::span<const Mistake> mistakes_of_programs();
 [[nodiscard]] std::span<const Mistake> mistakes_of_fixed_passes();
+[[nodiscard]] std::span<const Mistake> mistakes_of_reported_ports();
 [[nodiscard]] std::span<const Mistake> mistakes_of_picture();
 
 }  // namespace strata::oracle

@@ -18,15 +18,19 @@ struct NamedIn {
 const NamedIn mistakes_by_scene[] = {
     {"random.weighted_blended",
      {"weight_grows_with_depth", "weight_without_alpha", "revealage_cleared_to_0", "revealage_added", "sums_in_bytes",
-      "background_added_whole"}},
+      "background_added_whole", "sums_not_premultiplied", "revealage_replaced"}},
     {"random.moments",
-     {"alpha_not_corrected", "moments_without_bias", "moments_of_window_depth", "absorbance_by_log2"}},
-    {"random.stochastic", {"sums_in_bytes", "background_added_whole", "alpha_not_corrected", "one_mask_for_all"}},
-    {"random.bucket_peel", {"buckets_of_whole_range", "bounds_cleared_to_0"}},
-    {"random.linked_list", {"list_cut_at_4", "list_cut_at_8", "list_of_8_nearest", "list_loses_every_second"}},
+     {"alpha_not_corrected", "moments_without_bias", "moments_of_window_depth", "absorbance_by_log2",
+      "absorbance_all_its_own", "absorbance_none_its_own"}},
+    {"random.stochastic",
+     {"sums_in_bytes", "background_added_whole", "alpha_not_corrected", "one_mask_for_all", "mask_by_alpha_alone"}},
+    {"random.bucket_peel", {"buckets_of_whole_range", "bounds_cleared_to_0", "far_ends_lost"}},
+    {"random.linked_list",
+     {"list_cut_at_4", "list_cut_at_8", "list_of_8_nearest", "list_loses_every_second", "list_of_8_last",
+      "list_skips_equal_depths"}},
     {"random.atomic_loop", {"one_node_too_few", "tail_lost", "core_again_in_tail", "tail_blended_twice"}},
     {"random.hybrid_transparency", {"one_node_too_few", "tail_lost", "tail_not_averaged", "core_again_in_tail"}},
-    {"random.multi_layer", {"one_node_too_few"}}};
+    {"random.multi_layer", {"one_node_too_few", "overflow_not_merged"}}};
 
 }  // namespace
 
