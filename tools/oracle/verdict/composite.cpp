@@ -46,10 +46,14 @@ StorageRounding keeper(Storage storage, Rounding rounding, bool operands_are_cod
     k.scale = scale_of(storage);
     k.has_codes = k.scale > 0;
     if (!k.has_codes) {
-        const bool truncates = rounding != Rounding::nearest && rounding != Rounding::held;
+        const bool truncates = rounding == Rounding::truncated || rounding == Rounding::any;
         k.relative = storage == Storage::half ? (truncates ? 0x1p-10 : 0x1p-11) : (truncates ? 0x1p-23 : 0x1p-24);
         k.relative += single_error;
         k.least = storage == Storage::half ? 0x1p-24 : 0x1p-120;  // covers subnormals, flushed or not
+        if (storage == Storage::half && rounding == Rounding::truncated) {
+            k.half = StorageRounding::Half::truncated;
+            k.relative = single_error;
+        }
         return k;
     }
     k.inverse = 1 / k.scale;
@@ -60,6 +64,7 @@ StorageRounding keeper(Storage storage, Rounding rounding, bool operands_are_cod
         case Rounding::nearest: k.minus = k.plus = 0.5 + error; break;
         case Rounding::products: k.minus = k.plus = 0.5 + 1.0 / 64 + error; break;  // blend_unorm8.h: product()
         case Rounding::held:
+        case Rounding::held_then_nearest:
             k.minus = k.plus = 0.5 + error;
             k.snaps = false;
             break;
@@ -97,7 +102,9 @@ StorageRounding storing(const End& result, bool is_divided) {
 }
 
 // The rounding of a colour that is converted to a code: ties go up, or in either direction.
-StorageRounding conversion(Storage storage, Source source) {
+StorageRounding conversion(const End& end) {
+    const auto [storage, source, rounding] = end;
+    if (storage == Storage::half) return keeper(storage, rounding, false);
     if (source == Source::any) return keeper(storage, Rounding::any, false);
     if (source == Source::premultiplied_truncated) return keeper(storage, Rounding::truncated, false);
     const bool goes_up = source == Source::stored || source == Source::premultiplied;
@@ -137,15 +144,14 @@ Interval kept_by(const StorageRounding& keeper, Interval exact, double magnitude
 
 Compositor::Means Compositor::means_of(const End& end, double slack) {
     Means m{.end = end, .slack = slack};
-    m.source = conversion(end.storage, end.source);
+    m.source = conversion(end);
     m.blend = keeper(end.storage, end.rounding, has_stored_source(end.source));
     m.weight = m.blend;
     // UNDER multiplies three codes if its sources are straight. Its transmittance may be stored as coverage, which
     // truncation rounds in the opposite direction.
     const bool has_three = end.source == Source::stored || end.source == Source::stored_either_way;
     m.under = keeper(end.storage, end.rounding, has_stored_source(end.source) && !has_three);
-    if (m.weight.truncates)
-        m.weight = keeper(end.storage, Rounding::nearest, false), m.weight.minus = m.weight.plus = 1;
+    if (m.weight.truncates) m.weight.truncates = false, m.weight.minus = m.weight.plus = 1;
     return m;
 }
 
@@ -161,7 +167,7 @@ Compositor::Operand Compositor::operand(const Means& means, const Layer& layer, 
     };
     const auto stored = [&](Interval x) {
         if (source == Source::unrounded) return x;
-        if (!has_codes) return source == Source::any ? means.source.kept(x, x.magnitude()) : x;
+        if (!has_codes) return means.source.kept(x, x.magnitude());
         if (source == Source::any) return clamped(means.source.kept(x, 1));
         const bool goes_up = source == Source::stored || source == Source::premultiplied;
         return goes_up ? stored_up(means.source, x) : means.source.kept(x, 1);
@@ -212,6 +218,7 @@ Compositor::Channels Compositor::under(const Means& means, std::span<const Layer
     const bool may_be_rounded = means.end.source == Source::any;
     for (const Layer& layer : near_to_far) {
         const Operand o = operand(means, layer, stack.is_moved);
+        if (!color.has_codes && o.alpha.high == 0 && !o.is_premultiplied) continue;  // multiplications by 1 are exact
         const Interval through = mixing.attenuates ? sum[3] : Interval::of(1);
         for (std::size_t c = 0; c < 3; ++c) {
             Interval premultiplied = o.is_premultiplied ? o.color[c] : o.color[c] * o.alpha;
@@ -219,13 +226,18 @@ Compositor::Channels Compositor::under(const Means& means, std::span<const Layer
             if (may_be_rounded) premultiplied = means.source.kept(premultiplied, premultiplied.magnitude());
             Interval added = through * premultiplied;
             if (means.end.rounding == Rounding::products) added = means.under.kept(added, added.magnitude());
+            const double least = sum[c].low;
             sum[c] = kept_by(color, sum[c] + added, sum[c].magnitude() + added.magnitude(), is_linear);
+            // Rounding is monotone, so a sum of floats does not decrease by adding.
+            if (!color.has_codes && layer.color[c] >= 0) sum[c].low = std::max(sum[c].low, least);
         }
-        // The transmittance may be stored as coverage, 1 - t, so its error is relative to 1.
+        // The transmittance may be stored as coverage, 1 - t, so its error is relative to 1. Halves that are cut have
+        // so narrow an interval that coverage is left to Rounding::any.
         Interval left = sum[3] * rest_of(mixing.through == Mixing::Through::squared ? o.alpha * o.alpha : o.alpha);
         if (mixing.through == Mixing::Through::summed)
             left = {below(sum[3].low - o.alpha.high), above(sum[3].high - o.alpha.low)};
-        sum[3] = clamped(weight.kept(clamped(left), 1));
+        const double terms = weight.half == StorageRounding::Half::none ? 1 : sum[3].magnitude();
+        sum[3] = clamped(weight.kept(clamped(left), terms));
     }
     return sum;
 }
@@ -267,13 +279,16 @@ void Compositor::over(const Means& means, std::span<const Layer> near_to_far, co
 Compositor::Channels Compositor::background_of(const Means& means, const Stack& stack) noexcept {
     Channels channels;
     const Source source = means.end.source;
+    const StorageRounding to_nearest = keeper(means.end.storage, Rounding::nearest, false);
     for (std::size_t c = 0; c < 4; ++c) {
         Interval x = Interval::of(stack.background[c]);
         const double slack = means.slack + (stack.is_moved ? stack.background_spread + last_places : 0);
         if (slack > 0) x = x.widened(slack * std::max(1.0, x.magnitude()));
-        if (!means.blend.has_codes)
+        if (!means.blend.has_codes) {
             channels[c] = means.blend.kept(x, x.magnitude());
-        else if (stack.is_linear && c < 3)
+            if (means.blend.half != StorageRounding::Half::none)  // a clear value is rounded, a picture is cut
+                channels[c].high = std::max(channels[c].high, to_nearest.kept(x, x.magnitude()).high);
+        } else if (stack.is_linear && c < 3)
             channels[c] = kept_by(means.blend, clamped(x), 1, true);
         else if (source == Source::stored || source == Source::premultiplied)
             channels[c] = stored_up(means.source, clamped(x));
@@ -281,8 +296,7 @@ Compositor::Channels Compositor::background_of(const Means& means, const Stack& 
             channels[c] = means.source.kept(clamped(x), 1);
         // A clear value is rounded, a picture is truncated.
         if (source == Source::premultiplied_truncated && means.blend.has_codes)
-            channels[c].high = std::max(channels[c].high,
-                                        stored_up(keeper(means.end.storage, Rounding::nearest, true), clamped(x)).high);
+            channels[c].high = std::max(channels[c].high, stored_up(to_nearest, clamped(x)).high);
     }
     return channels;
 }
@@ -293,16 +307,19 @@ Compositor::Compositor(const Hypothesis& h)
       back_{means_of(h.back, h.slack)},
       result_{storing(h.result, h.is_divided)},
       converts_{h.result.storage != h.back.storage || h.back.rounding == Rounding::held ||
-                h.result.rounding == Rounding::any} {}
+                h.back.rounding == Rounding::held_then_nearest || h.result.rounding == Rounding::any} {}
 
 Sums Compositor::sums_of(const Stack& stack, const Channels& front, Interval weight,
                          const Channels& back) const noexcept {
     const Means& nearer = has_front(hypothesis_.order) ? front_ : back_;
     const bool is_plain = !stack.is_linear && stack.finish == Finish::as_is && stack.mixing == Mixing{};
-    if (result_.has_codes || !is_plain || !nearer.blend.has_codes || !nearer.blend.snaps) return {};
+    const auto ends_in_codes = [](const Means& means) {
+        return means.blend.has_codes && (means.blend.snaps || means.end.rounding == Rounding::held_then_nearest);
+    };
+    if (result_.has_codes || !is_plain || !ends_in_codes(nearer)) return {};
     const double rounded = hypothesis_.result.storage == Storage::half ? 0x1p-10 : 0x1p-24;
     Sums sums{.front_unit = nearer.blend.inverse, .weight = weight, .relative = rounded + 2 * single_error};
-    if (back_.blend.has_codes && back_.blend.snaps) sums.back_unit = back_.blend.inverse;
+    if (ends_in_codes(back_)) sums.back_unit = back_.blend.inverse;
     sums.is_back_half = hypothesis_.back.storage == Storage::half;
     std::copy_n(front.begin(), 3, sums.front.begin());
     std::copy_n(back.begin(), 3, sums.back.begin());

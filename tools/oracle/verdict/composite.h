@@ -112,8 +112,10 @@ struct StorageRounding {
             const auto rounded = [&](double v) {
                 return half == Half::truncated ? truncated_half(v) : nearest_half(v);
             };
+            const auto spacing = [&](double v) { return std::fabs(v) < 0x1p-14 ? least : 0; };  // of subnormals
             const Interval off = exact.widened(magnitude * relative);
-            return Interval{rounded(off.low), rounded(off.high)}.widened(least);
+            const double low = rounded(off.low), high = rounded(off.high);
+            return {low - spacing(low), high + spacing(high)};
         }
         if (!has_codes) return exact.widened(magnitude * relative + least);
         double low = below(exact.low * scale), high = above(exact.high * scale);

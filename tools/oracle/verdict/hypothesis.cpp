@@ -50,6 +50,7 @@ std::string_view words(Rounding rounding) noexcept {
         case Rounding::truncated: return "cut";
         case Rounding::products: return "each product rounded";
         case Rounding::held: return "rounded to nearest or kept in binary32 for a pass";
+        case Rounding::held_then_nearest: return "rounded to nearest or at the end of a pass";
         case Rounding::any: return "rounded within one code";
     }
     return "";  // unreachable: the enum is closed
@@ -70,7 +71,10 @@ std::string_view words(Source source) noexcept {
 
 std::string words(const End& end) {
     if (end.storage == Storage::single) return "binary32";
-    if (end.storage == Storage::half) return end.rounding == Rounding::any ? "binary16, rounded or cut" : "binary16";
+    if (end.storage == Storage::half && end.rounding != Rounding::any)
+        return fmt::format("binary16{}{}", end.rounding == Rounding::truncated ? " that is cut" : "",
+                           end.source == Source::stored ? ", layers too" : "");
+    if (end.storage == Storage::half) return "binary16, rounded or cut";
     return fmt::format("{} {}{}", name(end.storage), words(end.rounding), words(end.source));
 }
 
@@ -78,7 +82,12 @@ std::string words(const End& end) {
 std::vector<End> ends(Storage storage) {
     using enum Source;
     using R = Rounding;
-    if (storage == Storage::half) return {{storage, unrounded, R::nearest}, {storage, any, R::any}};
+    if (storage == Storage::half)
+        return {{storage, unrounded, R::nearest},
+                {storage, unrounded, R::truncated},
+                {storage, stored, R::nearest},
+                {storage, stored, R::truncated},
+                {storage, any, R::any}};
     if (storage == Storage::single) return {{storage, unrounded, R::nearest}};
     return {{storage, stored, R::nearest},
             {storage, stored_either_way, R::nearest},
@@ -91,6 +100,7 @@ std::vector<End> ends(Storage storage) {
             {storage, premultiplied_truncated, R::truncated},
             {storage, stored_either_way, R::products},
             {storage, premultiplied_either_way, R::products},
+            {storage, unrounded, R::held_then_nearest},
             {storage, unrounded, R::held},
             {storage, any, R::any}};
 }
@@ -99,6 +109,7 @@ std::vector<End> ends(Storage storage) {
 std::vector<End> ends_of_pairs(Storage storage) {
     using enum Source;
     using R = Rounding;
+    if (storage == Storage::half) return {{storage, unrounded, R::nearest}, {storage, unrounded, R::truncated}};
     if (storage != Storage::unorm8) return {ends(storage).front()};
     return {{storage, stored, R::nearest},
             {storage, stored_either_way, R::nearest},
@@ -186,7 +197,10 @@ class FamilyMaker {
                                   .result = nearest,
                                   .slack = slack,
                                   .is_divided = is_divided_});
-        const bool may_cut = has_codes(result_) || (result_ == Storage::half && front.storage == Storage::single);
+        // A device that cuts the results of blends also cuts the final sum, which `over` does not have.
+        const bool is_cut = order != Order::over && front.rounding == Rounding::truncated;
+        const bool may_cut =
+            has_codes(result_) || (result_ == Storage::half && (front.storage == Storage::single || is_cut));
         if (!may_cut || has_codes(front.storage)) return;
         family.members.push_back(family.members.back());
         family.members.back().result.rounding = Rounding::truncated;

@@ -37,13 +37,14 @@ enum class Source : std::uint8_t {
     any                       // any of the above
 };
 
-// The rounding of a blend's exact result. Floats have only `nearest` and `any`, which includes truncation.
+// The rounding of a blend's exact result. Floats have only `nearest`, for binary16 `truncated`, and `any` of these.
 enum class Rounding : std::uint8_t {
     nearest,
-    truncated,  // truncated
-    products,   // each product is rounded, then added: twice half a code
-    held,       // to nearest, or kept in binary32 until the end of the pass
-    any         // an error of up to one code in either direction
+    truncated,          // truncated
+    products,           // each product is rounded, then added: twice half a code
+    held,               // to nearest, or kept in binary32 until the end of the pass
+    held_then_nearest,  // the same, and the result is rounded at the end, as by a cache of tiles
+    any                 // an error of up to one code in either direction
 };
 
 struct End {

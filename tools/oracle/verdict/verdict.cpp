@@ -114,6 +114,14 @@ std::optional<CheckedAccount> right_but_rearranged(const SceneFragments& scene, 
     return std::nullopt;
 }
 
+// True if all values are codes, or sums of accumulator codes (composite.h: Sums): so few are possible that a picture
+// far from right does not have them.
+bool is_of_codes(const Hypothesis& h) {
+    const End& nearer = has_front(h.order) ? h.front : h.back;
+    const bool ends_in_codes = nearer.rounding != Rounding::held && nearer.rounding != Rounding::any;
+    return has_codes(h.result.storage) || (has_codes(nearer.storage) && ends_in_codes);
+}
+
 // True if a right account needs no comparison with others, because its intervals are narrow: one code, or few bits per
 // pixel for floats.
 bool leaves_little_open(const CheckedAccount& right) {
@@ -246,7 +254,8 @@ Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits
     const double most_bits = 1.1 * bits_of(verdict.right, storage) + 64;
     for (const Families* some : {&all.definite, &all.coarse, &all.loose}) {
         auto right = account_for(*some, {}, scene, candidate, sample);
-        if (right && (right->bits <= most_bits || (has_codes(storage) && right->observed <= few_codes)))
+        if (right &&
+            (right->bits <= most_bits || (is_of_codes(right->account.hypothesis) && right->observed <= few_codes)))
             return is_right(*std::move(right), even);
     }
     for (const SampledPixel& pixel : examples.pixels())

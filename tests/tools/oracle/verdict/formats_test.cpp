@@ -98,3 +98,26 @@ TEST_CASE("a picture of floats over 8-bit accumulators is called right in few bi
     CHECK(found.right.account.hypothesis.front.storage == Storage::unorm8);
     CHECK(found.right.bits < static_cast<double>(found.right.covered) * 3);
 }
+
+// A sum front to back that adds ever less must not lose a unit of binary16 with each layer.
+TEST_CASE("a picture of halves that are cut is called right at once however many layers it has") {
+    OpenedScene opened{"volume-beam:slices=24,order=far", 32, 24};
+    opened.profile = *pipeline::find_profile("llvmpipe");
+    const auto picture = *opened.picture("layer_peel", pipeline::Format::rgba16f);
+    opened.profile = *pipeline::find_profile("geforce8");
+    const Verdict found = judged(opened, picture);
+    CHECK(found.is_right);
+    CHECK(found.right.possible <= 1);
+}
+
+// Blends of one pass into a cached tile are rounded once, at its end, so an 8-bit sum may lie between the sums of a
+// port that rounds each time.
+TEST_CASE("a picture of floats over 8-bit accumulators that are rounded once per pass is called right") {
+    OpenedScene opened{"showroom", 48, 36};
+    opened.options.background = {0, 0, 0, 1};
+    opened.options.result_format = pipeline::Format::rgba32f;
+    opened.profile = *pipeline::find_profile("softpipe");
+    const auto picture = *opened.picture("coherent_stencil", pipeline::Format::rgba8);
+    opened.profile = *pipeline::find_profile("geforce8");
+    CHECK(judged(opened, picture).is_right);
+}

@@ -35,6 +35,7 @@ class PortModel {
         const Color behind = background(h_.back, stack.background);
         Color back = is_apart ? Color{0, 0, 0, 0} : behind;
         for (std::size_t i = layers.size(); i-- > near;) over(h_.back, layers[i], back);
+        end_pass(h_.back, back);
         if (is_apart) {
             const double through = 1 - back[3];
             for (std::size_t c = 0; c < 4; ++c) back[c] = as_single(back[c] + as_single(through * behind[c]));
@@ -43,6 +44,7 @@ class PortModel {
         if (is_over) return h_.result.storage == h_.back.storage && !is_held(h_.back) ? back : published(back);
         Color front{0, 0, 0, 1};
         for (std::size_t i = 0; i < near; ++i) under(h_.front, layers[i], front);
+        end_pass(h_.front, front);
         Color sum;
         for (std::size_t c = 0; c < 3; ++c) sum[c] = as_single(front[c] + as_single(front[3] * back[c]));
         sum[3] = 1 - front[3] * (1 - back[3]);
@@ -50,7 +52,10 @@ class PortModel {
     }
 
   private:
-    static bool is_held(const End& end) { return end.rounding == Rounding::held || end.rounding == Rounding::any; }
+    static bool is_held(const End& end) {
+        return end.rounding == Rounding::held || end.rounding == Rounding::held_then_nearest ||
+               end.rounding == Rounding::any;
+    }
     bool flips() { return (random_() >> 17 & 1) != 0; }
     static double as_single(double v) { return static_cast<float>(v); }
     static int levels(Storage s) {
@@ -79,7 +84,8 @@ class PortModel {
             case Rounding::products: return std::floor(code + 0.5) / top;
             // A result that is exactly a code may have been computed slightly below it.
             case Rounding::truncated: return std::floor(code + 1e-9) / top;
-            case Rounding::held: return flips() ? std::floor(code + 0.5) / top : as_single(v);
+            case Rounding::held:
+            case Rounding::held_then_nearest: return flips() ? std::floor(code + 0.5) / top : as_single(v);
             case Rounding::any: break;
         }
         const int way = static_cast<int>(random_() % 4);
@@ -93,7 +99,8 @@ class PortModel {
         const bool is_rounded = end.source != Source::unrounded && (end.source != Source::any || flips());
         if (!is_rounded) return top > 0 ? std::min(std::max(v, 0.0), 1.0) : v;
         if (end.storage == Storage::single) return v;
-        if (end.storage == Storage::half) return end.source == Source::any ? as_half(v, flips()) : v;
+        if (end.storage == Storage::half)
+            return as_half(v, end.source == Source::any ? flips() : end.rounding == Rounding::truncated);
         const double code = std::min(std::max(v, 0.0), 1.0) * top;
         if (end.source == Source::premultiplied_truncated) return std::floor(code + 1e-9) / top;
         const bool goes_up = end.source == Source::stored || end.source == Source::premultiplied || flips();
@@ -143,8 +150,15 @@ class PortModel {
                                                    : taken(end, layer.color[c]) * alpha;
             sum[c] = kept(end, sum[c] + through * source);
         }
-        // Half of the ports store coverage instead of transmittance.
-        sum[3] = flips() ? kept(end, through * (1 - alpha)) : 1 - kept(end, 1 - through * (1 - alpha));
+        // Half of the ports store coverage instead of transmittance, none of those that cut halves.
+        const bool cuts_halves = end.storage == Storage::half && end.rounding == Rounding::truncated;
+        sum[3] = cuts_halves || flips() ? kept(end, through * (1 - alpha)) : 1 - kept(end, 1 - through * (1 - alpha));
+    }
+
+    static void end_pass(const End& end, Color& sum) {
+        if (end.rounding != Rounding::held_then_nearest) return;
+        const int top = levels(end.storage);
+        for (double& v : sum) v = std::floor(v * top + 0.5) / top;
     }
 
     Color published(const Color& color) {
