@@ -165,6 +165,37 @@ TEST_CASE(
     }
 }
 
+// A list keeps its first fragments or its nearest, and blends the others behind, whatever part of the region it is in.
+TEST_CASE("linked lists in parts have the result and counts and faults of those in one part for every overflow rule") {
+    FragmentScene scene = one_deep_pixel(40);
+    for (std::size_t i = 0; i < 40; ++i) {
+        scene.pixels[19].fragments[i].depth = static_cast<float>(i * 7 % 40) / 64;
+        scene.pixels[19].fragments[i].color[0] = static_cast<float>(i) / 64;
+    }
+    const Algorithm& algorithm = *find_algorithm("linked_list");
+    for (const Overflow rule : {Overflow::drop_new, Overflow::drop_far, Overflow::blend})
+        for (const auto& [pixel_nodes, frame_nodes] :
+             {std::pair{0, 0}, std::pair{5, 0}, std::pair{0, 20}, std::pair{9, 11}}) {
+            const auto composited = [&, &limit = pixel_nodes, &all = frame_nodes](std::uint64_t bytes) {
+                TestFrame test{scene, "ideal"};
+                test.frame.list_bytes = bytes;
+                const ListingInputs inputs{.options = {.pixel_nodes = limit, .frame_nodes = all, .overflow = rule},
+                                           .eye = {}};
+                return run(
+                    test.frame, [&](Region& region) { algorithm.run_with(region, inputs); }, Execution::literal, 1);
+            };
+            const FrameResult whole = composited(~std::uint64_t{0});
+            for (const std::uint64_t bytes : {40 * sizeof(KeyedFragment), 42 * sizeof(KeyedFragment)}) {
+                const FrameResult parts = composited(bytes);
+                CHECK(parts.color == whole.color);
+                CHECK(parts.passes == whole.passes);
+                CHECK(parts.counters == whole.counters);
+                CHECK(parts.diagnostics == whole.diagnostics);
+            }
+            CHECK(whole.diagnostics.empty() == (pixel_nodes + frame_nodes == 0));
+        }
+}
+
 TEST_CASE("batches have no bounds for a w buffer's depths and peel it like any other") {
     DeviceProfile w_peels = *find_profile("ideal");
     w_peels.raster = find_profile("geforce3")->raster;
