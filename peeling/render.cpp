@@ -167,7 +167,8 @@ struct Renderer::State {
         f.shadow = light ? &light->stage : nullptr;
         f.epsilon = options.compare_epsilon;
         f.quantize_reference = quantizes();
-        f.compares_at_pixel = shades_pixels();
+        // A depth unit compares the depth of the sample, however often programs run.
+        f.compares_at_pixel = shades_pixels() && !needs(algorithm, Feature::sequential_depth_units);
         f.depth = depth_of(algorithm);
         if (algorithm.is_oracle) f.depth.path = rasterizer::DepthPath::exact;
         f.key = algorithm.key;

@@ -54,9 +54,9 @@ class SampleSum {
         : samples_{samples}, profile_{profile}, greater_is_nearer_{greater_is_nearer}, color_{new_resolve()} {}
 
     void add(RenderResult&& one) {
-        color_.add(one.frame.color);
-        add_nearest(one.frame.depth, greater_is_nearer_, sum_.frame.depth);
-        add_layers(one.frame.layers);
+        color_.add(std::move(one.frame.color));
+        add_nearest(std::move(one.frame.depth), greater_is_nearer_, sum_.frame.depth);
+        add_layers(std::move(one.frame.layers));
         FrameResult& frame = sum_.frame;
         frame.iterations = std::max(frame.iterations, one.frame.iterations);
         add_sample(one.frame.passes, frame.passes);
@@ -85,15 +85,15 @@ class SampleSum {
     [[nodiscard]] ColorResolve new_resolve() const { return {samples_, profile_.resolve, profile_.color_rounding()}; }
 
     // Adds layer k of a sample, counted from one end, to layer k of the frame from the same end.
-    void add_layers(const std::vector<PeeledLayer>& layers) {
+    void add_layers(std::vector<PeeledLayer> layers) {
         for (const Side side : {Side::none, Side::front, Side::back}) {
             auto next = layers_.begin();
-            for (const PeeledLayer& layer : layers) {
+            for (PeeledLayer& layer : layers) {
                 if (layer.side != side) continue;
                 next = std::find_if(next, layers_.end(), [&](const Layer& l) { return l.side == side; });
                 if (next == layers_.end()) next = layers_.insert(next, {new_resolve(), {}, side});
-                next->color.add(layer.color);
-                if (!layer.depth.codes.empty()) add_nearest(layer.depth, greater_is_nearer_, next->depth);
+                next->color.add(std::move(layer.color));
+                if (!layer.depth.codes.empty()) add_nearest(std::move(layer.depth), greater_is_nearer_, next->depth);
                 ++next;
             }
         }
@@ -130,20 +130,21 @@ struct SampledRenderer::State {
         return std::nullopt;
     }
 
-    // Calls `run` for each sample: one after the other, or, if one loads what another stores, all at once.
-    template <class Run>
-    [[nodiscard]] std::vector<RenderResult> each(const Run& run) {
-        std::vector<RenderResult> results(renderers.size());
-        for (std::size_t number = 0; number < renderers.size(); ++number) {
-            Renderer& own = renderer(number);
-            if (!sampling.is_joint()) results[number] = run(own, number, Instruments{});
-        }
-        if (sampling.is_joint()) run_jointly(results, run);
-        return results;
+    // Calls `run` for each sample: one after the other, or, if one loads what another stores, all at once. Calls
+    // `take` with the results in the order of the samples, until it returns false.
+    template <class Run, class Take>
+    void each(const Run& run, const Take& take) {
+        std::vector<RenderResult> results;
+        if (sampling.is_joint()) results = run_jointly(run);
+        for (std::size_t number = 0; number < renderers.size(); ++number)
+            if (!take(results.empty() ? run(renderer(number), number, Instruments{}) : std::move(results[number])))
+                return;
     }
 
     template <class Run>
-    void run_jointly(std::vector<RenderResult>& results, const Run& run) {
+    [[nodiscard]] std::vector<RenderResult> run_jointly(const Run& run) {
+        std::vector<RenderResult> results(renderers.size());
+        for (std::size_t number = 0; number < results.size(); ++number) static_cast<void>(renderer(number));
         SampleGroup group{sampling.samples};
         std::vector<std::exception_ptr> errors(results.size());
         const auto run_sample = [&](std::size_t number) {
@@ -172,6 +173,7 @@ struct SampledRenderer::State {
                                      " threads at once: " + shortage);
         for (const std::exception_ptr& error : errors)
             if (error) std::rethrow_exception(error);
+        return results;
     }
 
     Renderer& renderer(std::size_t number) {
@@ -215,9 +217,14 @@ std::vector<RenderResult> SampledRenderer::render_traced(const Algorithm& algori
         return refused;
     }
     traces.assign(s.renderers.size(), {});
-    return s.each([&](Renderer& renderer, std::size_t number, const Instruments& joint) {
-        return renderer.render_traced(algorithm, traces[number], joint);
-    });
+    std::vector<RenderResult> results;
+    s.each([&](Renderer& renderer, std::size_t number,
+               const Instruments& joint) { return renderer.render_traced(algorithm, traces[number], joint); },
+           [&](RenderResult&& one) {
+               results.push_back(std::move(one));
+               return true;
+           });
+    return results;
 }
 
 RenderResult SampledRenderer::render(const Algorithm& algorithm, const std::function<void(double)>& progress,
@@ -233,27 +240,23 @@ RenderResult SampledRenderer::render(const Algorithm& algorithm, const std::func
     if (samples == 1) return s.renderer(0).render(algorithm, progress);
     std::vector<Image> colors;
     SampleSum sum{samples, s.profile, s.options.raster.depth_order == rasterizer::DepthOrder::greater};
+    RenderResult refused;
     const bool keeps_colors = own_colors != nullptr || s.sampling.resolve == Resolve::quincunx;
-    const auto add = [&](RenderResult&& one) {
+    const auto run = [&](Renderer& renderer, std::size_t number, const Instruments& joint) {
+        const auto share = [&](double own) { progress((static_cast<double>(number) + own) / samples); };
+        const bool shows = progress && !s.sampling.is_joint();
+        return renderer.render(algorithm, shows ? std::function<void(double)>{share} : nullptr, joint);
+    };
+    s.each(run, [&](RenderResult&& one) {
+        if (one.outcome == Outcome::refused) {
+            refused = std::move(one);
+            return false;
+        }
         if (keeps_colors) colors.push_back(one.frame.color);
         sum.add(std::move(one));
-    };
-    if (s.sampling.is_joint()) {
-        std::vector<RenderResult> results = s.each([&](Renderer& renderer, std::size_t, const Instruments& joint) {
-            return renderer.render(algorithm, {}, joint);
-        });
-        for (RenderResult& one : results) {
-            if (one.outcome == Outcome::refused) return std::move(one);
-            add(std::move(one));
-        }
-    }
-    for (std::size_t number = 0; !s.sampling.is_joint() && number < s.renderers.size(); ++number) {
-        const auto share = [&](double own) { progress((static_cast<double>(number) + own) / samples); };
-        RenderResult one =
-            s.renderer(number).render(algorithm, progress ? std::function<void(double)>{share} : nullptr);
-        if (one.outcome == Outcome::refused) return one;
-        add(std::move(one));
-    }
+        return true;
+    });
+    if (refused.outcome == Outcome::refused) return refused;
     RenderResult result = std::move(sum).result();
     const bool is_turned = s.profile.origin == Origin::lower_left;
     if (s.sampling.resolve == Resolve::quincunx) result.frame.color = quincunx(colors[0], colors[1], is_turned);

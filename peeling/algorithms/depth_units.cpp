@@ -18,7 +18,7 @@ namespace {
 // Draws the nearest fragment behind `peeled`. Comparisons other than of stored codes run in the fragment program,
 // before the depth units.
 DrawCounts peel(Region& region, Target peeled, Target nearest, Target layer, bool first) {
-    const DepthCompare compare = region.frame().unit_compare();
+    const DepthCompare compare = region.frame().depth_compare();
     const bool in_program = !first && !compare.is_plain();
     PassState state;
     state.depth_units[0] = {.depth = peeled, .func = CompareFunc::greater};

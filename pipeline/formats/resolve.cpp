@@ -25,9 +25,15 @@ void for_blocks_of_codes(std::size_t size, const Visit& visit) {
 
 }  // namespace
 
-void ColorResolve::add(const Image& sample) {
+void ColorResolve::add(Image sample) {
     const FloatEnvironment ours;
-    if (sum_.codes.empty()) sum_ = Image(sample.format, sample.width, sample.height);
+    const bool is_first = sum_.codes.empty();
+    if (is_first) sum_.format = sample.format;
+    if (adds_codes() && is_first) {
+        sum_ = std::move(sample);
+        return;
+    }
+    if (is_first) sum_ = Image(sample.format, sample.width, sample.height);
     std::uint32_t* const sums = sum_.codes.data();
     const std::uint32_t* const codes = sample.codes.data();
     if (adds_codes()) {
@@ -52,7 +58,8 @@ Image ColorResolve::picture() && {
     std::uint32_t* const sums = sum_.codes.data();
     const std::size_t size = sum_.codes.size();
     if (adds_codes()) {
-        for (std::size_t i = 0; i < size; ++i) sums[i] = (2 * sums[i] + n) / (2 * n);
+        const int bits = std::countr_zero(n);  // a power of two
+        for (std::size_t i = 0; i < size; ++i) sums[i] = (sums[i] + n / 2) >> bits;
     } else {
         std::array<float, codes_at_once> values;
         const float share = 1.0f / static_cast<float>(samples_);
@@ -82,9 +89,9 @@ Image quincunx(const Image& corner, const Image& centre, bool is_turned) {
     return picture;
 }
 
-void add_nearest(const Image& sample, bool greater_is_nearer, Image& nearest) {
+void add_nearest(Image sample, bool greater_is_nearer, Image& nearest) {
     if (nearest.codes.empty()) {
-        nearest = sample;
+        nearest = std::move(sample);
         return;
     }
     for (std::size_t i = 0; i < sample.codes.size(); ++i) {

@@ -24,7 +24,7 @@ class ColorResolve {
 
     // All images must have the same format and size. A part that a sample does not cover has codes of 0 and adds
     // nothing.
-    void add(const Image& sample);
+    void add(Image sample);
     [[nodiscard]] Image picture() &&;
 
   private:
@@ -46,6 +46,6 @@ class ColorResolve {
 
 // Keeps the nearer of two depths at every pixel; an empty `nearest` becomes `sample`. Under reversed depth greater
 // codes are nearer.
-void add_nearest(const Image& sample, bool greater_is_nearer, Image& nearest);
+void add_nearest(Image sample, bool greater_is_nearer, Image& nearest);
 
 }  // namespace strata::pipeline

@@ -31,7 +31,7 @@ struct Frame {
     const PreparedDraw* second = nullptr;  // see second_list(); has the same bins as `transparent`; null: `transparent`
     rasterizer::DepthRequest depth;  // the frame's depth buffer (path and format), and the path that programs compare
     CompareEpsilon epsilon;          // added by programs to a stored depth before they compare
-    bool compares_at_pixel = false;  // programs run once a pixel: what they compare is not a sample's stored depth
+    bool compares_at_pixel = false;  // programs compare, once a pixel: not a sample's stored depth
     bool quantize_reference = true;  // false: programs compare a depth that is not rounded like the stored one
     DepthKey key = DepthKey::stored_code;
     Format color_format = Format::rgba8;
@@ -67,16 +67,11 @@ struct Frame {
         if (key == DepthKey::shader_z) return {rasterizer::DepthPath::float32, DepthFormat::d32f, depth.reference};
         return depth;
     }
-    // The comparison of a depth unit, whose depth is that of the sample, and of a program, whose depth may be the
-    // pixel's.
-    [[nodiscard]] DepthCompare unit_compare() const noexcept {
-        const rasterizer::DepthRequest request = key_request();
-        return {request.format, epsilon, request.reference.value_or(request.path) != request.path, quantize_reference};
-    }
     [[nodiscard]] DepthCompare depth_compare() const noexcept {
-        DepthCompare compare = unit_compare();
-        compare.has_reference |= compares_at_pixel && key == DepthKey::stored_code;
-        return compare;
+        const rasterizer::DepthRequest request = key_request();
+        const bool has_reference = request.reference.value_or(request.path) != request.path ||
+                                   (compares_at_pixel && key == DepthKey::stored_code);
+        return {request.format, epsilon, has_reference, quantize_reference};
     }
     // The formats of the target of a final quad, and of the target onto which layers are blended from behind.
     [[nodiscard]] Format picture_format() const noexcept { return published_format.value_or(color_format); }

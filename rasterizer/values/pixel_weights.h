@@ -7,6 +7,8 @@
 //          represents exactly. Otherwise e_i is taken from the 64-bit edge functions and rounded once.
 // Tests    tests/rasterizer/values/plane_test.cpp, fragment_values_test.cpp
 #pragma once
+#include <limits>
+
 #include "rasterizer/coverage/coverage.h"
 #include "rasterizer/coverage/fragment_batch.h"
 #include "rasterizer/coverage/small_triangles.h"
@@ -63,6 +65,8 @@ struct PixelWeights {
         e1 = plane(edges.edge(1), geometry.rules.subpixel_bits);
         e2 = plane(edges.edge(2), geometry.rules.subpixel_bits);
         kind = std::max(size(e1), size(e2)) > 0x1p53 ? Kind::snapped_wide : Kind::snapped;
+        // Its fragments are beyond its corners, without a bound: exact arithmetic decides them all.
+        if (triangle.negative_w != 0) reach = std::numeric_limits<double>::infinity();
     }
     void snap(const TriangleGroup& group, std::size_t k) noexcept {
         area = group.area[k];

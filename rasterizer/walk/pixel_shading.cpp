@@ -15,21 +15,16 @@ namespace {
 
 [[nodiscard]] SubpixelPoint less(SubpixelPoint a, SubpixelPoint b) noexcept { return {a.x - b.x, a.y - b.y}; }
 
-[[nodiscard]] bool covers(const TriangleEdges& edges, SubpixelPoint centre) noexcept {
-    for (std::size_t i = 0; i < 3; ++i)
-        if (edges.edge(i).at(centre) < edges.tie(i)) return false;
-    return true;
+// The change of an edge's value where its corners move so far; a triangle's edges at another point of the pixel.
+[[nodiscard]] std::int64_t change(const Edge& edge, SubpixelPoint moved) noexcept {
+    return -(edge.step_x() * moved.x + edge.step_y() * moved.y);
 }
 
-// Bounds |b1| + |b2| at the fragments, from above.
-[[nodiscard]] double reach_of(const TriangleEdges& edges, int subpixel_bits, int first,
-                              const FragmentBatch& batch) noexcept {
-    std::int64_t most = edges.area();
-    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(batch.count); ++i) {
-        const EdgeValues e = edges.at(pixel_centre(batch.x[i], batch.y[i], subpixel_bits));
-        most = std::max(most, (e[1] < 0 ? -e[1] : e[1]) + (e[2] < 0 ? -e[2] : e[2]));
-    }
-    return static_cast<double>(most) / static_cast<double>(edges.area()) * (1.0 + 0x1p-40);
+// What a move of the corners adds to the reach of a triangle's own fragments at most.
+[[nodiscard]] double added_reach(const TriangleEdges& edges, SubpixelPoint moved) noexcept {
+    const std::int64_t e1 = change(edges.edge(1), moved), e2 = change(edges.edge(2), moved);
+    return static_cast<double>((e1 < 0 ? -e1 : e1) + (e2 < 0 ? -e2 : e2)) / static_cast<double>(edges.area()) *
+           (1.0 + 0x1p-40);
 }
 
 }  // namespace
@@ -37,10 +32,15 @@ namespace {
 PixelShading::PixelShading(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs)
     : geometry_{geometry}, needs_{needs} {
     assert(geometry.state.sample && depth.path != DepthPath::depth_replace);
-    points_.push_back(point_at({}, depth));
+    FragmentNeeds at_point = needs;  // the codes are the sample's
+    at_point.code = at_point.exact_code = false;
+    points_.push_back(point_at({}, depth, at_point));
     if (geometry.state.interpolation == Interpolation::centre) return;
+    at_point.shader_z = at_point.reference = false;
     for (std::size_t s = 0; s < static_cast<std::size_t>(geometry.state.sample_count); ++s)
-        points_.push_back(point_at(geometry.state.samples[s], depth));
+        points_.push_back(point_at(geometry.state.samples[s], depth, at_point));
+    least_.resize(points_.size() - 1);
+    few_ = std::make_unique<Few>();
 }
 
 FragmentNeeds PixelShading::of_sample(const FragmentNeeds& needs) noexcept {
@@ -53,7 +53,8 @@ FragmentNeeds PixelShading::of_sample(const FragmentNeeds& needs) noexcept {
 }
 
 // Fragments outside the depth range are dropped by the sample's own depth, before.
-PixelShading::Point PixelShading::point_at(SamplePoint point, const DepthRequest& depth) const {
+PixelShading::Point PixelShading::point_at(SamplePoint point, const DepthRequest& depth,
+                                           const FragmentNeeds& needs) const {
     Geometry one;
     one.state = geometry_.state;
     one.state.sample = point;
@@ -72,7 +73,7 @@ PixelShading::Point PixelShading::point_at(SamplePoint point, const DepthRequest
     one.extras.values.resize(vertices * one.extras.stride);
     const int bits = geometry_.rules.subpixel_bits;
     const SubpixelPoint moved = less(offset_of(*geometry_.state.sample, bits), offset_of(point, bits));
-    FragmentValues values{one, depth, needs_};
+    FragmentValues values{one, depth, needs};
     return {std::move(one), values, moved};
 }
 
@@ -96,34 +97,44 @@ void PixelShading::take(std::uint32_t index, Point& point) const {
 }
 
 int PixelShading::fill(std::uint32_t index, int first, FragmentBatch& batch, WeightLanes& weights) {
-    if (geometry_.state.interpolation == Interpolation::centroid)
-        return fill_at_centroids(index, first, batch, weights);
-    take(index, points_[0]);
-    return fill_at(points_[0], first, batch, weights);
+    // The depth is that of the centre everywhere.
+    const int fallbacks = fill_at(points_[0], index, first, batch, weights);
+    if (geometry_.state.interpolation == Interpolation::centre) return fallbacks;
+    return fallbacks + fill_at_centroids(index, first, batch);
 }
 
-// The codes are the sample's, and stay.
-int PixelShading::fill_at(Point& point, int first, FragmentBatch& batch, WeightLanes& weights) {
+// A reference is computed with a code of its own; the stored one is the sample's, and stays.
+int PixelShading::fill_at(Point& point, std::uint32_t index, int first, FragmentBatch& batch, WeightLanes& weights) {
+    take(index, point);
     DrawnTriangle triangle{point.one, 0};
-    triangle.weights.reach = reach_of(triangle.edges(), point.one.rules.subpixel_bits, first, batch);
-    const auto f = static_cast<std::size_t>(first);
-    const auto count = static_cast<std::size_t>(batch.count - first);
-    Lanes<std::uint32_t> code, exact_code;
-    const FragmentNeeds own = of_sample(needs_);
-    if (own.code) std::copy_n(&batch.code[f], count, code.begin());
-    if (own.exact_code) std::copy_n(&batch.exact_code[f], count, exact_code.begin());
+    triangle.weights.reach += added_reach(triangle.edges(), point.moved);
+    if (!needs_.reference) return point.values.fill(triangle, first, batch, weights);
+    Lanes<std::uint32_t> code;
+    const auto f = static_cast<std::size_t>(first), count = static_cast<std::size_t>(batch.count - first);
+    std::copy_n(&batch.code[f], count, code.begin());
     const int fallbacks = point.values.fill(triangle, first, batch, weights);
-    if (own.code) std::copy_n(code.begin(), count, &batch.code[f]);
-    if (own.exact_code) std::copy_n(exact_code.begin(), count, &batch.exact_code[f]);
+    std::copy_n(code.begin(), count, &batch.code[f]);
     return fallbacks;
 }
 
-std::size_t PixelShading::centroid_of(const FragmentBatch& batch, std::size_t i) const noexcept {
-    const SubpixelPoint centre = pixel_centre(batch.x[i], batch.y[i], geometry_.rules.subpixel_bits);
-    std::size_t covered = 0, first = edges_.size();
-    for (std::size_t s = edges_.size(); s-- > 0;)
-        if (covers(edges_[s], centre)) ++covered, first = s;
-    return covered == edges_.size() ? 0 : 1 + first;
+// For each sample of the pixel, the least values of the edges at the triangle's own sample where it is covered.
+void PixelShading::find_least(std::uint32_t index) {
+    const TriangleRecord& record = geometry_.triangles[index];
+    edges_.emplace(geometry_.points(record), geometry_.rules.tie_rule, record.negative_w);
+    for (std::size_t s = 0; s < least_.size(); ++s)
+        for (std::size_t i = 0; i < 3; ++i)
+            least_[s][i] = edges_->tie(i) - change(edges_->edge(i), points_[1 + s].moved);
+}
+
+std::size_t PixelShading::centroid_of(SubpixelPoint pixel) const noexcept {
+    const EdgeValues e{edges_->edge(0).at(pixel), edges_->edge(1).at(pixel), edges_->edge(2).at(pixel)};
+    const auto covers = [&](const EdgeValues& least) {
+        return e[0] >= least[0] && e[1] >= least[1] && e[2] >= least[2];
+    };
+    const auto first = std::find_if(least_.begin(), least_.end(), covers);
+    return std::all_of(first, least_.end(), covers) && first == least_.begin()
+               ? 0
+               : 1 + static_cast<std::size_t>(first - least_.begin());
 }
 
 void PixelShading::copy_attributes(const FragmentBatch& from, std::size_t i, FragmentBatch& to,
@@ -135,34 +146,31 @@ void PixelShading::copy_attributes(const FragmentBatch& from, std::size_t i, Fra
             if (names(needs_.units, u, c)) to.unit[u][c][k] = from.unit[u][c][i];
 }
 
-int PixelShading::fill_at_centroids(std::uint32_t index, int first, FragmentBatch& batch, WeightLanes& weights) {
-    edges_.clear();
-    for (Point& point : points_) take(index, point);
-    const std::uint8_t negative = points_[0].one.triangles[0].negative_w;
-    for (std::size_t s = 1; s < points_.size(); ++s)
-        edges_.emplace_back(points_[s].one.points(points_[s].one.triangles[0]), geometry_.rules.tie_rule, negative);
+int PixelShading::fill_at_centroids(std::uint32_t index, int first, FragmentBatch& batch) {
+    find_least(index);
     Lanes<std::uint8_t> at;
-    bool is_inside = true;
+    unsigned needed = 0;  // bit p: a fragment has its centroid at point p
     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(batch.count); ++i) {
-        at[i] = static_cast<std::uint8_t>(centroid_of(batch, i));
-        is_inside &= at[i] == 0;
+        at[i] =
+            static_cast<std::uint8_t>(centroid_of(pixel_centre(batch.x[i], batch.y[i], geometry_.rules.subpixel_bits)));
+        needed |= 1u << at[i];
     }
-    // The depth is that of the centre everywhere.
-    int fallbacks = fill_at(points_[0], first, batch, weights);
-    for (std::size_t p = 1; !is_inside && p < points_.size(); ++p) {
+    int fallbacks = 0;
+    for (std::size_t p = 1; p < points_.size(); ++p) {
+        if ((needed >> p & 1u) == 0) continue;
         Lanes<std::uint16_t> lane;
-        few_.count = 0;
-        few_.material = batch.material;
+        FragmentBatch& few = few_->batch;
+        few.count = 0;
+        few.material = batch.material;
         for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(batch.count); ++i) {
             if (at[i] != p) continue;
-            const auto k = static_cast<std::size_t>(few_.count++);
+            const auto k = static_cast<std::size_t>(few.count++);
             lane[k] = static_cast<std::uint16_t>(i);
-            few_.pixel[k] = batch.pixel[i], few_.primitive[k] = batch.primitive[i];
-            few_.x[k] = batch.x[i], few_.y[k] = batch.y[i];
+            few.pixel[k] = batch.pixel[i], few.primitive[k] = batch.primitive[i];
+            few.x[k] = batch.x[i], few.y[k] = batch.y[i];
         }
-        if (few_.count == 0) continue;
-        fallbacks += fill_at(points_[p], 0, few_, few_weights_);
-        for (std::size_t k = 0; k < static_cast<std::size_t>(few_.count); ++k) copy_attributes(few_, k, batch, lane[k]);
+        fallbacks += fill_at(points_[p], index, 0, few, few_->weights);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(few.count); ++k) copy_attributes(few, k, batch, lane[k]);
     }
     return fallbacks;
 }

@@ -7,6 +7,8 @@
 // Source   rasterizer/reference/coverage.md 12.3.
 // Tests    tests/rasterizer/walk/pixel_shading_test.cpp
 #pragma once
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "rasterizer/values/fragment_values.h"
@@ -17,6 +19,12 @@ class PixelShading {
   public:
     // The geometry's state has a sample and an interpolation other than `sample`; the path does not replace depth.
     PixelShading(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs);
+
+    // True if the geometry evaluates values that are needed apart from its samples.
+    [[nodiscard]] static bool is_used(const Geometry& geometry, const FragmentNeeds& needs) noexcept {
+        return geometry.state.interpolation != Interpolation::sample &&
+               (needs.shader_z || needs.color || needs.texcoord || needs.reference || needs.units != 0);
+    }
 
     // What the sample itself has of these needs.
     [[nodiscard]] static FragmentNeeds of_sample(const FragmentNeeds& needs) noexcept;
@@ -33,20 +41,26 @@ class PixelShading {
         SubpixelPoint moved;  // from the corners of the sample to those of the point
     };
 
-    [[nodiscard]] Point point_at(SamplePoint point, const DepthRequest& depth) const;
+    struct Few {  // the fragments of one point
+        FragmentBatch batch;
+        WeightLanes weights{};
+    };
+
+    [[nodiscard]] Point point_at(SamplePoint point, const DepthRequest& depth, const FragmentNeeds& needs) const;
     void take(std::uint32_t index, Point& point) const;
-    [[nodiscard]] int fill_at(Point& point, int first, FragmentBatch& batch, WeightLanes& weights);
-    [[nodiscard]] int fill_at_centroids(std::uint32_t index, int first, FragmentBatch& batch, WeightLanes& weights);
-    // The point of fragment `i`: 0 for the centre, 1 + s for sample s.
-    [[nodiscard]] std::size_t centroid_of(const FragmentBatch& batch, std::size_t i) const noexcept;
+    [[nodiscard]] int fill_at(Point& point, std::uint32_t index, int first, FragmentBatch& batch, WeightLanes& weights);
+    [[nodiscard]] int fill_at_centroids(std::uint32_t index, int first, FragmentBatch& batch);
+    void find_least(std::uint32_t index);
+    // The centroid in a pixel whose own sample is at `pixel`: 0 for the centre, 1 + s for sample s.
+    [[nodiscard]] std::size_t centroid_of(SubpixelPoint pixel) const noexcept;
     void copy_attributes(const FragmentBatch& from, std::size_t i, FragmentBatch& to, std::size_t k) const noexcept;
 
     const Geometry& geometry_;
     FragmentNeeds needs_;
-    std::vector<Point> points_;         // the centre, then for the centroid the samples
-    std::vector<TriangleEdges> edges_;  // of the current triangle at each sample
-    FragmentBatch few_;                 // fragments of one point
-    WeightLanes few_weights_{};
+    std::vector<Point> points_;           // the centre, then for the centroid the samples
+    std::optional<TriangleEdges> edges_;  // of the current triangle at its own sample
+    std::vector<EdgeValues> least_;       // for each sample, the values of those edges from which on it is covered
+    std::unique_ptr<Few> few_;            // for the centroid
 };
 
 }  // namespace strata::rasterizer

@@ -16,12 +16,10 @@ namespace {
     return chosen_simd() >= Simd::avx2 && geometry.state.depth_order == DepthOrder::less &&
            !geometry.state.window_positions && geometry.rules.plane_rule == PlaneRule::exact &&
            geometry.rules.coverage == CoverageRule::snapped_edges && geometry.rules.subpixel_bits <= 8 &&
-           region.width() <= max_row_pixels && geometry.state.interpolation == Interpolation::sample;
+           region.width() <= max_row_pixels;
 }
 
-}  // namespace
-
-bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept {
+[[nodiscard]] bool has_float_rows(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept {
     const bool clips_fragments = geometry.rules.z_clip == ZClip::per_fragment && !geometry.state.depth_clamp;
     // D16F and D24F have no vector conversion from binary32, nor have codes of a binary32 product.
     const bool has_conversion = depth.format != DepthFormat::d16f && depth.format != DepthFormat::d24f;
@@ -30,11 +28,18 @@ bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const R
            depth_conversion(depth.format, geometry.rules.depth_rounding, 1.0f).kind == code_kind(depth.format);
 }
 
+}  // namespace
+
+// Rows evaluate all values where they find coverage.
+bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept {
+    return geometry.state.interpolation == Interpolation::sample && has_float_rows(geometry, depth, region);
+}
+
 bool depth_rows_suit(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept {
     const DepthHypothesis& h = geometry.rules.hypothesis;
     const bool is_chip =
         depth.path == DepthPath::window_z && h.window_z == WindowZRule::chip && h.weights == WeightRule::cut_edges;
-    return is_chip ? can_walk(geometry, region) : row_walk_suits(geometry, depth, region);
+    return is_chip ? can_walk(geometry, region) : has_float_rows(geometry, depth, region);
 }
 
 DepthDrawn draw_depth_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,

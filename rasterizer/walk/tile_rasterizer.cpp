@@ -12,14 +12,6 @@
 
 namespace strata::rasterizer {
 
-namespace {
-
-[[nodiscard]] bool is_shaded_apart(const Geometry& geometry) noexcept {
-    return geometry.state.interpolation != Interpolation::sample;
-}
-
-}  // namespace
-
 // One call of draw: its constants, and the batch being filled.
 class TileRasterizer::Pass {
   public:
@@ -31,10 +23,10 @@ class TileRasterizer::Pass {
           sink_{sink},
           kernels_{lane_kernels()},
           small_{small_kernels()},
-          values_{geometry, depth, is_shaded_apart(geometry) ? PixelShading::of_sample(needs) : needs},
+          values_{geometry, depth, PixelShading::is_used(geometry, needs) ? PixelShading::of_sample(needs) : needs},
           has_colors_{needs.color},
           rules_{group_rules(geometry, owner.region_)} {
-        if (is_shaded_apart(geometry)) shading_ = std::make_unique<PixelShading>(geometry, depth, needs);
+        if (PixelShading::is_used(geometry, needs)) shading_ = std::make_unique<PixelShading>(geometry, depth, needs);
     }
 
     void draw(std::span<const std::uint32_t> triangles) {

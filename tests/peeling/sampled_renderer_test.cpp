@@ -18,6 +18,7 @@ using strata::peeling::RenderResult;
 using strata::peeling::SampledRenderer;
 using strata::pipeline::find_profile;
 using strata::pipeline::Image;
+using strata::rasterizer::Interpolation;
 
 [[nodiscard]] RenderOptions sampled_options() {
     RenderOptions options;
@@ -110,6 +111,24 @@ TEST_CASE("every execution and tile size draws the same samples") {
                 CHECK(sampled(scene, machine, options, 4).result.frame.color == first);
             }
     }
+}
+
+TEST_CASE("every execution shades the same pixels at the centre and centroid") {
+    const TriangleScene scene = random_triangles(1204, 40);
+    for (const char* algorithm : {"front_to_back", "dual", "depth_units", "weighted_average"})
+        for (const auto interpolation : {Interpolation::centre, Interpolation::centroid}) {
+            const Machine machine{"ideal", algorithm};
+            RenderOptions options = sampled_options();
+            options.raster.interpolation = interpolation;
+            const RenderResult first = sampled(scene, machine, options, 4).result;
+            for (const Running& running : all_ways_of_running) {
+                running.apply(options);
+                const RenderResult result = sampled(scene, machine, options, 4).result;
+                CHECK(result.frame.color == first.frame.color);
+                CHECK(result.frame.depth == first.frame.depth);
+                CHECK(result.audit == first.audit);
+            }
+        }
 }
 
 TEST_CASE("layer k of a sampled frame is the mean of layer k of every sample counted from its own end") {

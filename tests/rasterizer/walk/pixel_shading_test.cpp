@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 #include <map>
+#include <numeric>
+#include <utility>
 
 #include "rasterizer/base/simd.h"
 #include "tests/rasterizer/rational.h"
@@ -115,7 +117,66 @@ void compare_with_planes(SoupKind kind, std::size_t sample, Interpolation interp
     }
 }
 
+// A sliver of 1.5 square subpixels, a few pixels long, with a side through the sample of pixel (20, 20): at the pixel's
+// centre its weights are near 2^27, and they cancel, for all values lie on a line.
+[[nodiscard]] SetupTriangle sliver_through_sample(Random& random, int bits) {
+    const int unit = 1 << bits, middle = 20 * unit + unit / 2;
+    int dx = 0, dy = 0;
+    while (std::gcd(dx, dy) != 1)
+        dx = random_int(random, 2 * unit, 9 * unit), dy = random_int(random, 2 * unit, 9 * unit);
+    // dx v - dy u = 1, for the third corner
+    int u = 0, v = 0;
+    for (int a = dx, b = dy, u0 = 0, u1 = 1, v0 = 1, v1 = 0;;) {  // Euclid
+        if (b == 0) {
+            v = v0, u = -u0;
+            break;
+        }
+        const int q = a / b;
+        a = std::exchange(b, a - q * b);
+        v0 = std::exchange(v1, v0 - q * v1);
+        u0 = std::exchange(u1, u0 - q * u1);
+    }
+    const int turn = random_int(random, 0, 1) == 0 ? 1 : -1;
+    dy *= turn, v *= turn;
+    SetupTriangle t = window_triangle(
+        {{{middle - dx, middle - dy}, {middle + 2 * dx, middle + 2 * dy}, {middle - u, middle - v}}}, bits);
+    const float first = random_float(random, 0.2f, 0.8f), last = random_float(random, 0.2f, 0.8f);
+    const float along = (1.0f - static_cast<float>(u) / static_cast<float>(dx)) / 3;
+    const std::array values{first, last, first + along * (last - first)};
+    for (std::size_t i = 0; i < 3; ++i) t.z[i] = t.attribute[i][0] = values[i];
+    t.given_z = t.z;
+    return t;
+}
+
 }  // namespace
+
+TEST_CASE("values at the centre of slivers with weights near 2 to the 27 are the exact planes rounded once") {
+    constexpr int bits = 12;
+    Random random{2032};
+    std::vector<SetupTriangle> triangles;
+    for (int i = 0; i < 300; ++i) triangles.push_back(sliver_through_sample(random, bits));
+    for (const strata::Simd simd : strata::available_simd()) {
+        const strata::SimdScope scope{simd};
+        Geometry geometry = window_geometry(triangles, 40, 40, {.subpixel_bits = bits});
+        geometry.state.sample = four_points[0];
+        geometry.state.interpolation = Interpolation::centre;
+        std::uint64_t wrong = 0, fragments = 0;
+        Rational most = 0;
+        for (const Fragment& f : draw(geometry).fragments) {
+            const SetupTriangle& t = triangles[f.primitive];
+            // The corners are those that the sample moved, so its pixel's centre is where the sample is not.
+            const SamplePoint centre{16 - four_points[0].x, 16 - four_points[0].y};
+            const ShadedPoint point = shaded_point(t.p, f.x, f.y, centre, bits);
+            most = std::max(most, Rational{abs(point.weight[1]) + abs(point.weight[2])});
+            const float value = nearest_float(plane_value(point.weight, t.z));
+            wrong += f.shader_z == value && f.color[0] == value ? 0 : 1;
+            ++fragments;
+        }
+        CHECK(wrong == 0);
+        CHECK(fragments > 100);
+        CHECK(most > 1 << 26);
+    }
+}
 
 TEST_CASE("values at centre and centroid are those of exact planes and codes those of the sample") {
     for (const Interpolation interpolation : {Interpolation::centre, Interpolation::centroid})
