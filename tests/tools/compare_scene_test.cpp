@@ -136,6 +136,25 @@ TEST_CASE("compare --exact holds a picture of a scene or a pack to every bit", "
     CHECK(run_strata(folder, {"compare", "pack", "a.front_to_back.png"}).status == 0);
 }
 
+TEST_CASE("a picture of an approximate algorithm is compared with the algorithm's own picture") {
+    const Folder folder;
+    REQUIRE(shell(folder,
+                  "strata render teapot --size 24x18 --algorithm weighted_average,dual -q -o a.exr && "
+                  "strata golden teapot --size 24x18 --algorithm weighted_average -q -o pack")
+                .status == 0);
+    const std::string right = "a.weighted_average.exr", other = "a.dual.exr";
+    const CommandResult found = run_strata(folder, {"compare", "teapot", right, "--algorithm", "weighted_average"});
+    CHECK(found.status == 0);
+    CHECK(found.out == "equal\n");
+    CHECK(found.err.find("weighted_average is not exact on every scene, so its own picture is the reference") !=
+          std::string::npos);
+    CHECK(run_strata(folder, {"compare", "pack", right}).out == "equal\n");
+    const CommandResult wrong = run_strata(folder, {"compare", "teapot", other, "--algorithm", "weighted_average"});
+    CHECK(wrong.status == 1);
+    CHECK(wrong.out.starts_with("different: "));
+    CHECK(run_strata(folder, {"compare", "teapot", other, "--algorithm", "dual"}).out.starts_with("right: "));
+}
+
 TEST_CASE("options that describe a scene are rejected when the reference is a picture") {
     const Folder folder;
     const CommandResult ended = run_strata(folder, {"compare", "a.png", "b.png", "--profile", "llvmpipe"});

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "peeling/registry.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/image_io.h"
@@ -40,11 +41,30 @@ struct CompareOptions {
     RunOptions run{};  // only if the reference is a scene
 };
 
-// True if the result is a verdict (right or wrong apart from rounding): the reference is a scene or a pack, and neither
-// --exact nor --tolerance is given. Otherwise the result is a list of differences.
+// True if the result may be a verdict (right or wrong apart from rounding): the reference is a scene or a pack, and
+// neither --exact nor --tolerance is given. Otherwise the result is a list of differences.
 bool asks_for_verdict(const CompareOptions& options) {
     const oracle::Tolerances none{.channels = options.tolerances.channels};
     return is_scene(options.reference) && !options.exact && options.tolerances == none;
+}
+
+// The algorithm that the command names, or the only one of a pack; null if there is no such algorithm.
+const peeling::Algorithm* algorithm_of(const CompareOptions& options) {
+    if (!options.algorithm.empty()) return to_algorithm(options.algorithm);
+    if (!scenes::is_pack(options.reference)) return nullptr;
+    const auto all = oracle::expected_pictures(options.reference);
+    return all.size() == 1 ? peeling::find_algorithm(all[0].algorithm) : nullptr;
+}
+
+// A verdict is about layers in depth order, which a right port of an approximate algorithm does not composite. Its
+// picture is compared with the algorithm's own.
+bool is_approximate(const CompareOptions& options) {
+    const peeling::Algorithm* algorithm = algorithm_of(options);
+    if (algorithm == nullptr || algorithm->exact) return false;
+    say_note("strata: note: " + algorithm->name +
+             " is not exact on every scene, so its own picture is the reference, to the bit; --tolerance color=1 "
+             "forgives a code of rounding\n");
+    return true;
 }
 
 ComparedPaths paths_of(const CompareOptions& options) { return {options.reference, options.candidate}; }
@@ -149,7 +169,7 @@ int compare(const CompareOptions& options) {
                    {"--report", options.report, {".html"}}});
     if (scenes::is_pack(options.reference) && std::filesystem::is_directory(options.candidate))
         return compare_folders(options);
-    if (asks_for_verdict(options)) {
+    if (asks_for_verdict(options) && !is_approximate(options)) {
         check_without_files(options);
         oracle::Picture picture = oracle::read_picture(options.candidate, options.layout);
         state_alpha(picture, options.alpha_form);
@@ -243,7 +263,8 @@ Command add_compare(CLI::App& root) {
         "teapot.png\n"
         "With a scene as the reference the picture is right if some port that composites the right fragments in the "
         "right order can make it, "
-        "whatever its formats, order of blending and rounding.\n"
+        "whatever its formats, order of blending and rounding. With --algorithm and one that is not exact (strata "
+        "algorithms) it is compared with that algorithm's own picture.\n"
         "Exit status: 0 right, equal or within --tolerance, 1 wrong or different, 2 bad input or usage, 3 the system "
         "failed, 130 "
         "interrupted.");

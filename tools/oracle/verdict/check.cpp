@@ -100,8 +100,10 @@ class Checker {
         if (account_.rules.empty()) return;
         Stack own = stack;
         const Stack& right = maker.right(way.list, way.ties);
-        own.near = right.near;  // the position of a peel's division is not part of the structure
-        own.near_without_middle = right.near_without_middle;
+        // The position of a peel's division is not part of the structure. A rule may have left fewer layers than the
+        // right structure has in its near half.
+        own.near = std::min(right.near, own.layers.size());
+        own.near_without_middle = std::min(right.near_without_middle, own.layers.size());
         own.is_moved = false;
         if (own == right || (own.mixing != right.mixing && compositor_.reach(own) == compositor_.reach(right))) return;
         ++found.changed;
