@@ -15,7 +15,6 @@
 #include "peeling/programs/fragment_lists.h"
 #include "peeling/programs/tie_order.h"
 #include "peeling/programs/under.h"
-#include "pipeline/region/region_shortcuts.h"
 
 namespace strata::peeling::listing::linked_list {
 
@@ -27,6 +26,7 @@ struct Lists {
     Region& region;
     const AlgorithmOptions& options;
     std::vector<std::uint32_t> coverage;
+    std::vector<Rgba> composited;                 // of every pixel with fragments
     std::uint64_t last_node = ~std::uint64_t{0};  // the key of the last fragment that gets one of the frame's nodes
 
     [[nodiscard]] PixelRange range_from(std::uint32_t first) const {
@@ -74,8 +74,8 @@ void blend_over(Rgba& below, const Rgba& source) noexcept {
 
 // Composites one pixel: the fragments that have nodes, sorted by depth, or the nearest of all fragments
 // (Overflow::drop_far). With Overflow::blend the fragments without a node are first blended onto the background.
-void resolve_pixel(const Lists& lists, std::uint32_t pixel, std::span<const KeyedFragment> fragments, Target result,
-                   PixelSet& overflow, FragmentOrder& order) {
+void composite_pixel(Lists& lists, std::uint32_t pixel, std::span<const KeyedFragment> fragments, PixelSet& overflow,
+                     FragmentOrder& order) {
     std::size_t nodes = lists.most(fragments.size());
     while (nodes > 0 && node_key(fragments[nodes - 1], pixel) > lists.last_node) --nodes;
     const Overflow rule = lists.options.overflow;
@@ -88,7 +88,7 @@ void resolve_pixel(const Lists& lists, std::uint32_t pixel, std::span<const Keye
     if (rule == Overflow::blend)
         for (const KeyedFragment& f : fragments.subspan(nodes)) blend_over(color, f.color);
     for (std::size_t i = order.size(); i-- > 0;) blend_over(color, fragments[submission_index(order[i])].color);
-    RegionShortcuts{lists.region}.store_pixel(result, pixel, color);
+    lists.composited[pixel] = color;
     if (!lists.region.frame().trace) return;
     for (const std::uint64_t entry : order) {
         const KeyedFragment& f = fragments[submission_index(entry)];
@@ -96,12 +96,27 @@ void resolve_pixel(const Lists& lists, std::uint32_t pixel, std::span<const Keye
     }
 }
 
-void run(Region& region, const ListingInputs& inputs) {
+// The last quad, which sorts and composites the lists on a device.
+void store(Region& region, const Lists& lists) {
     const Target result = region.make(region.frame().picture_format());
     region.set_name(result, "result");
+    PassState state;
+    state.color[0] = result;
+    state.reads[0] = region.opaque_color();
+    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            const bool has_list = lists.coverage[in.pixel[i]] > 0;
+            for (std::size_t c = 0; c < 4; ++c)
+                out.color[0][c][i] =
+                    has_list ? lists.composited[in.pixel[i]][static_cast<int>(c)] : loads.color(0)[c][i];
+        }
+    }));
+    region.publish(result);
+}
+
+void run(Region& region, const ListingInputs& inputs) {
     region.begin_iteration();
-    copy_color(region, region.opaque_color(), result);
-    Lists lists{region, inputs.options, coverage_of(region)};
+    Lists lists{region, inputs.options, coverage_of(region), std::vector<Rgba>(region.rect().area())};
     give_out_nodes(lists);
     const bool is_one_range = lists.range_from(0).size() == lists.coverage.size();
     if (!is_one_range) count_list_pass(region);
@@ -112,11 +127,10 @@ void run(Region& region, const ListingInputs& inputs) {
         list_visible(region, lists.range_from(first), lists.coverage,
                      is_one_range ? Counting::counted : Counting::silent, found);
         for (std::uint32_t pixel = first; pixel < found.pixels.last; ++pixel)
-            if (const auto fragments = found.of(pixel); !fragments.empty())
-                resolve_pixel(lists, pixel, fragments, result, overflow, order);
+            if (lists.coverage[pixel] > 0) composite_pixel(lists, pixel, found.of(pixel), overflow, order);
     }
     overflow.report(region, Fault::buffer_overflow, "more fragments than nodes");
-    region.publish(result);
+    store(region, lists);
 }
 
 }  // namespace

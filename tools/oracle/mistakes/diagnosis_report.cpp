@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tools/oracle/mistakes/catalogue.h"
@@ -76,6 +77,16 @@ ordered_json names_of(const std::vector<const Mistake*>& mistakes) {
     return names;
 }
 
+// A port's rounding that no option of a profile has leaves a code or two.
+std::string hint_of_tolerance(const Diagnosis& d, const Comparison& comparison) {
+    constexpr std::uint32_t few_codes = 2;
+    if (d.verdict != Verdict::unknown_mistake || comparison.distance_of.empty()) return "";
+    const std::uint32_t most = *std::ranges::max_element(comparison.distance_of);
+    if (most == 0 || most > few_codes) return "";
+    return fmt::format("  it differs by at most {}: --tolerance color={} accepts it\n",
+                       most == 1 ? "1 code" : fmt::format("{} codes", most), most);
+}
+
 }  // namespace
 
 std::string description_of(const std::vector<const Mistake*>& mistakes) {
@@ -103,6 +114,7 @@ std::string to_text(const Diagnosis& d, const Comparison& comparison) {
     const Finding& best = d.findings.front();
     if (!best.mistakes.empty()) text += line_of(best.passes, "that machine");
     text += line_of(d.right_passes, "a correct implementation");
+    text += hint_of_tolerance(d, comparison);
     if (d.is_nearly) text += fmt::format("  to the last code: {} of the {} that differ\n", best.explained, d.differing);
     for (const Mistake* mistake : best.alike)
         text += fmt::format("  the same picture of this scene{}: {} ({})\n", best.passes ? ", and passes alike" : "",

@@ -329,6 +329,7 @@ int diagnose(const CLI::App& app, const DiagnoseOptions& options) {
 Command add_diagnose(CLI::App& root) {
     auto* app = root.add_subcommand("diagnose", "show which known mistake, or which two, made a picture of a scene");
     const auto options = std::make_shared<DiagnoseOptions>();
+    options->run.takes_one_algorithm = true;
     add_picture_options(*app, options->run);
     options->run.resolves = true;
     app->get_option("SCENE")->required(false);  // not needed with --list

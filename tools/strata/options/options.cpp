@@ -62,8 +62,10 @@ std::vector<const peeling::Algorithm*> to_algorithms(const std::string& text) {
 void add_algorithm_option(CLI::App& app, RunOptions& options) {
     app.add_option_function<std::string>(
            "--algorithm", [&options](const std::string& text) { options.algorithms = to_algorithms(text); },
-           "algorithms with commas between, or all (default " + options.default_algorithm + ")")
-        ->type_name("NAME[,NAME...]|all");
+           (options.takes_one_algorithm ? "an algorithm (default "
+                                        : "algorithms with commas between, or all (default ") +
+               options.default_algorithm + ")")
+        ->type_name(options.takes_one_algorithm ? "NAME" : "NAME[,NAME...]|all");
 }
 
 std::optional<std::uint8_t> to_mask(std::string_view text) {

@@ -24,6 +24,7 @@ struct RunOptions {
     std::string scene;
     scenes::SceneOptions scene_options;
     std::string default_algorithm = "dual";
+    bool takes_one_algorithm = false;                   // for the help; the command checks it
     std::vector<const peeling::Algorithm*> algorithms;  // at least one after parsing, without repetition
     std::string profile = "geforce8";                   // a name or a file
     std::optional<pipeline::Origin> origin;             // --origin; empty: the profile's

@@ -133,3 +133,20 @@ TEST_CASE("colours within the tolerance count as equal and the default tolerance
     CHECK(found.verdict == Verdict::one_mistake);
     CHECK(names_of(found.findings.front())[0] == "red_for_blue");
 }
+
+TEST_CASE("a picture that no option explains but that is at most two codes away is reported with that tolerance") {
+    const SceneFixture bench{"showroom.weighted_sum"};
+    const MistakeImages mistake_images{bench.mistake_renderer};
+    const Picture right = bench.mistake_renderer.right();
+    for (const std::uint32_t distance : {1u, 2u, 3u}) {
+        Picture rounded = right;
+        std::vector<std::uint32_t>& codes = rounded.targets[0].codes;
+        for (std::size_t i = 0; i < codes.size(); i += 7) codes[i] += codes[i] + distance <= 255 ? distance : 0;
+        const Diagnosis found = mistake_images.diagnose(rounded);
+        REQUIRE(found.verdict == Verdict::unknown_mistake);
+        const std::string text = to_text(found, compare(right, rounded));
+        INFO(text);
+        CHECK((text.find("--tolerance color=" + std::to_string(distance) + " accepts it\n") != std::string::npos) ==
+              (distance < 3));
+    }
+}
