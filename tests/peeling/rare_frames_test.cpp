@@ -32,6 +32,20 @@ RenderResult on(const DeviceProfile& profile, const DrawList& list, const char* 
     return renderer.render(*find_algorithm(algorithm));
 }
 
+// Draws one_deep_pixel(40) with memory for one pixel's fragments, for two more, and for all: the results are equal.
+template <class Composited>
+FrameResult check_parts(Composited&& composited) {
+    FrameResult whole = composited(~std::uint64_t{0});
+    for (const std::uint64_t bytes : {40 * sizeof(KeyedFragment), 42 * sizeof(KeyedFragment)}) {
+        const FrameResult parts = composited(bytes);
+        CHECK(parts.color == whole.color);
+        CHECK(parts.passes == whole.passes);
+        CHECK(parts.counters == whole.counters);
+        CHECK(parts.diagnostics == whole.diagnostics);
+    }
+    return whole;
+}
+
 // Draws the same frame literally and in tiles and compares pictures, statistics and audits.
 void check_both_ways(const DeviceProfile& profile, const DrawList& list, const char* algorithm, RenderOptions options,
                      const View& view = {}) {
@@ -156,13 +170,7 @@ TEST_CASE(
         test.frame.list_bytes = bytes;
         return run(test.frame, find_algorithm("a_buffer")->run, Execution::literal, 1);
     };
-    const FrameResult whole = composited(~std::uint64_t{0});
-    for (const std::uint64_t bytes : {40 * sizeof(KeyedFragment), 42 * sizeof(KeyedFragment)}) {
-        const FrameResult parts = composited(bytes);
-        CHECK(parts.color == whole.color);
-        CHECK(parts.passes == whole.passes);
-        CHECK(parts.counters == whole.counters);
-    }
+    check_parts(composited);
 }
 
 // A list keeps its first fragments or its nearest, and blends the others behind, whatever part of the region it is in.
@@ -184,14 +192,7 @@ TEST_CASE("linked lists in parts have the result and counts and faults of those 
                 return run(
                     test.frame, [&](Region& region) { algorithm.run_with(region, inputs); }, Execution::literal, 1);
             };
-            const FrameResult whole = composited(~std::uint64_t{0});
-            for (const std::uint64_t bytes : {40 * sizeof(KeyedFragment), 42 * sizeof(KeyedFragment)}) {
-                const FrameResult parts = composited(bytes);
-                CHECK(parts.color == whole.color);
-                CHECK(parts.passes == whole.passes);
-                CHECK(parts.counters == whole.counters);
-                CHECK(parts.diagnostics == whole.diagnostics);
-            }
+            const FrameResult whole = check_parts(composited);
             CHECK(whole.diagnostics.empty() == (pixel_nodes + frame_nodes == 0));
         }
 }

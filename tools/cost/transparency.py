@@ -3,13 +3,18 @@
 
     tools/cost/transparency.py [--models ../shared/models] [--strata build/release/strata] [--out build/transparency]
 
-Runs `strata cost --knob transparency` on each scene. A run that was stopped goes on. Models that are not there are left out.
+Measures each scene by `strata cost --knob transparency`, and the flicker of some algorithms along a path (flicker.py). What was stopped goes on.
+Models that are not there are left out. tests/docs/advice.py holds the advice to the table.
 """
 import argparse
 import csv
+import math
 import pathlib
 import shutil
 import subprocess
+
+import flicker
+import transparency_scenes
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -26,12 +31,19 @@ SCENES = {
 }
 MODELS = {"dragon": "dragon.glb", "bunny": "bunny.glb", "sponza": "sponza.glb"}
 PLOTTED = ["teapot, alpha 0.5", "dragon"]
-SHOWN = ["teapot, alpha 0.5", "showroom", "random", "dragon", "sponza"]  # columns of the short page
-NARROW = ["teapot, alpha 0.5", "teapot, alpha 0.98", "random", "beam", "dragon"]  # rows of its second table
+SHOWN = ["teapot, alpha 0.5", "showroom", "hair", "dragon", "sponza"]  # columns of the short page
+FLICKERING = "hair"
 BUFFERED = ("linked_list", "atomic_loop", "hybrid_transparency")
-ROWS = ["unsorted", "weighted_average", "weighted_blended", "moments", "stochastic --stochastic-samples 8",
-        "multi_layer", "adaptive", "atomic_loop", "hybrid_transparency", "bucket_peel", "linked_list --pixel-nodes 8",
-        "front_to_back --max-passes 4 --tail average", "linked_list", "dual"]
+ROWS = ["weighted_blended", "moments", "moments_quantized", "stochastic --stochastic-samples 8", "multi_layer", "adaptive",
+        "atomic_loop", "hybrid_transparency", "bucket_peel", "linked_list --pixel-nodes 8", "linked_list", "dual", "front_to_back_ties", "dual_ties"]
+FLICKERS = ["weighted_blended", "moments", "stochastic --stochastic-samples 8", "multi_layer", "hybrid_transparency", "linked_list --pixel-nodes 8",
+            "linked_list", "dual", "front_to_back_ties"]
+EPSILON = "dual --compare-epsilon 1e-4"  # a band of depths that count as equal
+UNORDERED = ("linked_list", "linked_list --pixel-nodes 8", "atomic_loop", "hybrid_transparency", "multi_layer", "adaptive", "moments_quantized")  # need buffers or ordered views
+# What a port asks for: the words of the advice, most bytes a pixel, most passes, and what is left out.
+DEMANDS = [("one pass and 16 bytes a pixel", 16, 1, ("linked_list",)), ("two passes and 48 bytes a pixel", 48, 2, ("linked_list",)),
+           ("two passes and 100 bytes a pixel", 100, 2, ("linked_list",)), ("blending alone", math.inf, math.inf, UNORDERED),
+           ("lists of any length", math.inf, math.inf, ())]
 
 
 def measured(options, name, words):
@@ -54,39 +66,37 @@ def whole_table(found):
     rows = []
     for value in next(iter(found.values())):
         first = next(iter(found.values()))[value]
-        rows.append([f"`{value}`", first["geometry_passes"], first["bytes_per_pixel"], *(figure(of[value]["rmse"]) for of in found.values())])
+        cells = [" / ".join(figure(of[value][key]) for key in ("rmse", "max_difference", "ssim")) for of in found.values()]
+        rows.append([f"`{value}`", first["geometry_passes"], first["bytes_per_pixel"], *cells])
     return table(["algorithm and options", "passes", "bytes a pixel", *found], rows)
 
 
-def short_table(found):
+def short_rows(found):
+    """The cells of the page's table by algorithm: errors of the shown scenes, bytes a pixel, passes, time."""
     names = [name for name in SHOWN if name in found]
     cost_of = found[names[0]]
     cheapest = min(float(row["modelled_seconds"]) for value, row in cost_of.items() if not value.startswith((*BUFFERED, "a_buffer", "painter")))
-    rows = []
-    for value in ROWS:
-        first = cost_of[value]
-        rows.append([f"`{value}`", *(figure(found[name][value]["rmse"]) for name in names), figure(first["bytes_per_pixel"]), first["geometry_passes"],
-                     "-" if value.startswith(BUFFERED) else f"{float(first['modelled_seconds']) / cheapest:.2g}"])
-    return table(["algorithm", *names, "bytes a pixel", "passes", "card's time"], rows)
+    return {value: [*(figure(found[name][value]["rmse"]) for name in names), figure(cost_of[value]["bytes_per_pixel"]), cost_of[value]["geometry_passes"],
+                    "-" if value.startswith(BUFFERED) else f"{float(cost_of[value]['modelled_seconds']) / cheapest:.2g}"] for value in ROWS}
 
 
-def least(of, most_bytes, most_passes):
-    """The algorithm of a device with the least error within these bounds; what needs lists of any length or a sorted scene is left out."""
-    able = [row for row in of.values() if int(row["geometry_passes"]) <= most_passes and float(row["bytes_per_pixel"]) <= most_bytes
-            and row["value"] not in ("a_buffer", "painter", "linked_list")]
-    return min(able, key=lambda row: (float(row["rmse"]), float(row["bytes_per_pixel"])))
+def mean(cells, scenes):
+    """The geometric mean of the errors of a row."""
+    return math.exp(sum(math.log(float(cell)) for cell in cells[:scenes]) / scenes)
 
 
-def advice(found):
-    for name in NARROW:
-        if name not in found:
-            continue
-        of = found[name]
-        blended, best = least(of, 16, 1), least(of, 64, 2)
-        yield f"| {name} | `{blended['value']}`: {figure(blended['rmse'])} | `{best['value']}`: {figure(best['rmse'])} |"
+def advice(rows, scenes):
+    for words, most_bytes, most_passes, without in DEMANDS:
+        able = {value: cells for value, cells in rows.items()
+                if float(cells[scenes]) <= most_bytes and int(cells[scenes + 1]) <= most_passes and value not in without}
+        best = min(able, key=lambda value: (round(mean(able[value], scenes), 3), float(able[value][scenes])))
+        yield f"- With {words}: `{best}`, mean error {mean(able[best], scenes):.3g}."
 
 
-def page(found, pictures):
+def page(found, flickering, pictures):
+    rows = short_rows(found)
+    names = [name for name in SHOWN if name in found]
+    body = [[f"`{value}`", *cells, figure(str(flickering[value])) if value in flickering else "-"] for value, cells in rows.items()]
     plots = "\n\n".join(f"![Error over the modelled card's time: {name}]({file})" for name, file in pictures.items())
     return f"""# What accuracy costs with algorithms of few passes
 
@@ -94,22 +104,23 @@ How far from the exact picture is each algorithm, and what does it take? The emu
 scenes of {SIZE} pixels as a GeForce 8800 with 8-bit colours would, with the features that an algorithm needs beyond it. Figures are RMSE in
 1/255 against a picture in which nothing is rounded or snapped; `linked_list`, which is exact, shows what rounding leaves.
 
-{short_table(found)}
-*Bytes a pixel*: targets and buffers beside the opaque scene's, on the first scene. *Card's time*: what the card's rates allow there, as a multiple of
-the cheapest; traffic in buffers is not counted, so that lists have none.
+{table(["algorithm", *names, "bytes a pixel", "passes", "card's time", "flicker"], body)}
+*Bytes a pixel*, *passes* and *card's time* are of the first scene: targets and buffers; what the card's rates allow, as a multiple of
+the cheapest, without traffic in buffers. *Flicker*: the RMS change of the error between {flicker.FRAMES} frames of {FLICKERING},
+{flicker.STEP} degrees apart; {flickering[EPSILON]:.2g} for `{EPSILON}`.
 
-The least error within one pass and 16 bytes a pixel, and within two passes and 64 bytes:
+## Advice
 
-| scene | 1 pass, 16 bytes | 2 passes, 64 bytes |
-|---|---|---|
-{chr(10).join(advice(found))}
+The least geometric mean of the errors in the table (tests/docs/advice.py checks it):
 
-No weight is best in all scenes: it has to be tuned to the depths. A list cut at 8 nodes keeps the first 8 submitted, not the nearest.
-`front_to_back` and `dual` lose fragments of equal depths (showroom, random).
+{chr(10).join(advice(rows, len(names)))}
+
+A list cut at 8 nodes keeps the first 8 submitted, not the nearest.
+`dual` loses fragments of equal depths (showroom); `dual_ties` does not.
 
 {plots}
 
-    tools/cost/transparency.py      # this page; all rows and scenes: build/transparency/TRANSPARENCY.md
+    tools/cost/transparency.py      # this page; build/transparency/TRANSPARENCY.md: all rows and scenes, RMSE / maximum / SSIM
 """
 
 
@@ -124,14 +135,17 @@ def main():
         if (options.models / file).exists():
             scenes[name] = [options.models / file, "--alpha", "0.5", *(["--orbit", "120,20"] if name == "dragon" else [])]
     options.out.mkdir(parents=True, exist_ok=True)
+    written = transparency_scenes.write_all(options.out / "scenes")
+    scenes.update({name: [path, "--orbit", "20,10"] for name, path in written.items()})
     found, pictures = {}, {}
     for name, words in scenes.items():
         folder, found[name] = measured(options, name, words)
         if name in PLOTTED:
             pictures[name] = f"TRANSPARENCY.{name.split(',')[0]}.svg"
             shutil.copy(next(folder.glob("frontier.*.modelled.svg")), HERE / pictures[name])
-    (options.out / "TRANSPARENCY.md").write_text(f"# All rows: RMSE in 1/255, {SIZE}\n\n{whole_table(found)}")
-    (HERE / "TRANSPARENCY.md").write_text(page(found, pictures))
+    flickering = flicker.flickers(options.strata, [written[FLICKERING]], [*FLICKERS, EPSILON])
+    (options.out / "TRANSPARENCY.md").write_text(f"# All rows: RMSE in 1/255, maximum in 1/255 and SSIM, {SIZE}\n\n{whole_table(found)}")
+    (HERE / "TRANSPARENCY.md").write_text(page(found, flickering, pictures))
 
 
 if __name__ == "__main__":

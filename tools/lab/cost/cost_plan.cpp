@@ -138,13 +138,14 @@ void transparency_cells(const CostBase& base, Cells& cells) {
             open_features(cell);
         });
     };
-    for (const char* name :
-         {"a_buffer", "dual", "unsorted", "painter", "weighted_sum", "weighted_average", "bucket_peel"})
+    for (const char* name : {"a_buffer", "dual", "unsorted", "painter", "weighted_sum", "weighted_average",
+                             "bucket_peel", "front_to_back_ties", "dual_ties"})
         with(name);
     using peeling::Weight;
     for (const Weight weight : {Weight::eq7, Weight::eq8, Weight::eq9, Weight::eq10, Weight::constant})
         with("weighted_blended", {.weight = weight});
-    for (const int moments : {4, 6, 8}) with("moments", {.moments = moments});
+    for (const char* name : {"moments", "moments_quantized"})
+        for (const int moments : {4, 6, 8}) with(name, {.moments = moments});
     for (const int samples : {1, 2, 4, 8}) with("stochastic", {.stochastic_samples = samples});
     for (const char* name : {"multi_layer", "adaptive", "atomic_loop", "hybrid_transparency"})
         for (const int nodes : {2, 4, 6}) with(name, {.nodes = nodes});
