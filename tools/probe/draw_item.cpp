@@ -84,7 +84,7 @@ Answer drawn(const DeviceProfile& profile, const Item& item, YDirection y) {
     pipeline::RegionStatistics books;
     pipeline::Region region{frame, {frame.rect()}, books};
     const pipeline::Target color = region.make_color();
-    region.clear(color, {});
+    region.clear(color, {.color = {item.clear[0], item.clear[1], item.clear[2], item.clear[3]}});
     pipeline::Target depth;
     if (item.depth) {
         depth = region.make_depth();

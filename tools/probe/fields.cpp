@@ -193,7 +193,7 @@ const std::vector<FieldGroup>& field_groups() {
           "raster.plane_corners"},
          {"raster.window_z_rule", "raster.weights", "raster.sum_bits", "raster.reciprocal_bits",
           "raster.reciprocal_deficit"}},
-        {"offset", Part::depth, {"offset."}, {"raster.offset_unit", "raster.offset_rule"}},
+        {"offset", Part::depth, {"offset."}, {"raster.offset_unit", "raster.offset_rule"}, {"raster.depth_limits"}},
         {"blending", Part::color, {"blend.products", "blend.over"}, {"blend_rounding", "blend_storage"}},
         {"halves", Part::color, {"color.halves"}, {"half_rounding"}},
         {"extremes", Part::color, {"blend.max", "blend.min"}, {"min_max_nan"}},

@@ -16,10 +16,15 @@ struct Hypothesis {
     std::vector<bool> equal{}, as_found{};
 };
 
-std::vector<std::size_t> deciding_items(const Comparison& device, std::string_view key) {
+bool decides(const Item& item, std::string_view key) {
+    return std::ranges::find(item.decides, key) != item.decides.end();
+}
+
+template <class Has>
+std::vector<std::size_t> items_that(const Comparison& device, Has has) {
     std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < device.count(); ++i)
-        if (std::ranges::find(device.item(i).decides, key) != device.item(i).decides.end()) numbers.push_back(i);
+        if (has(device.item(i))) numbers.push_back(i);
     return numbers;
 }
 
@@ -58,13 +63,18 @@ class Evidence {
             finding.reason = "has no effect next to the other values";
             return finding;
         }
-        const std::vector<std::size_t> items = deciding_items(device_, f.key);
+        const std::vector<std::size_t> items =
+            items_that(device_, [&](const Item& item) { return decides(item, f.key); });
         if (items.empty()) {
             finding.reason = "the device drew none of its scenes";
             return finding;
         }
+        const FieldFinding none = finding;
         count(f, items, finding);
-        return finding;
+        if (finding.state != FieldState::open) return finding;
+        FieldFinding of_all = none;  // other scenes may show what its own do not, next to these values of other fields
+        count(f, items_that(device_, [&](const Item& item) { return can_change(f.key, item); }), of_all);
+        return of_all.state == FieldState::open ? finding : of_all;
     }
 
     // The best single change for every item, among those examined by `of`.

@@ -51,7 +51,7 @@ struct Item {
     // Cleared to 1. Empty: no depth buffer.
     std::optional<DepthFormat> depth{};
     float depth_near = 0.0f, depth_far = 1.0f;
-    // The colour buffer is cleared to 0.
+    std::array<float, 4> clear{};  // of the colour buffer
     std::vector<Draw> draws{};
 };
 

@@ -58,6 +58,7 @@ ordered_json item_json(const Item& item) {
     json["depth"] = nullptr;
     if (item.depth) json["depth"] = pipeline::info(pipeline::target_format(*item.depth)).name;
     json["depth_range"] = bits({item.depth_near, item.depth_far});
+    json["clear"] = bits({item.clear[0], item.clear[1], item.clear[2], item.clear[3]});
     for (const Draw& draw : item.draws) json["draws"].push_back(draw_json(draw));
     return json;
 }

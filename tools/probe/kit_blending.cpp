@@ -24,6 +24,39 @@ Item pairs_item(const BlendTerm& term, const std::string& name) {
     return item;
 }
 
+// The same with other codes for red, green and blue than for alpha.
+Item mixed_pairs_item(const std::string& name) {
+    Item item{.name = name, .decides = {"blend_rounding", "unorm_rounding"}, .width = 256, .height = 256};
+    Draw under, over{.blend = BlendTerm{BlendEquation::add, BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha}};
+    for (int k = 0; k < 256; ++k) {
+        const auto code = [&](int factor, int offset) {
+            return static_cast<float>((k * factor + offset) % 256) / 255.0f;
+        };
+        const float at = static_cast<float>(k);
+        add_box(item, under, 0, at, 256, at + 1, {code(1, 0), code(1, 0), code(1, 0), code(1, 0)});
+        add_box(item, over, at, 0, at + 1, 256, {code(37, 11), code(83, 5), code(151, 77), code(1, 0)});
+    }
+    item.draws = {under, over};
+    return item;
+}
+
+// Triangles with a different colour at each corner: sources between two codes.
+Item blended_slopes_item(bool in_perspective, std::uint64_t seed, const std::string& name) {
+    Item item{.name = name, .decides = {"blend_rounding", "unorm_rounding"}, .width = 149, .height = 131};
+    Draw draw{.blend = BlendTerm{BlendEquation::add, BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha}};
+    RandomGenerator random{seed};
+    for (int i = 0; i < 80; ++i) {
+        std::array<FramePosition, 3> p;
+        for (FramePosition& position : p) {
+            position = random_position(random, item, 0.0f);
+            if (in_perspective) position.w = random.between(0.5f, 4.0f);
+        }
+        add_triangle(item, draw, p, {random_color(random), random_color(random), random_color(random)});
+    }
+    item.draws = {draw};
+    return item;
+}
+
 // Each of the values blended onto each of them.
 Item crossed_item(Format format, const BlendTerm& term, const std::vector<float>& values, const std::string& field,
                   const std::string& name) {
@@ -104,6 +137,9 @@ void add_blending(std::vector<Item>& items) {
     items.push_back(pairs_item({BlendEquation::add, BlendFactor::dst_color, BlendFactor::zero}, "blend.products"));
     items.push_back(
         pairs_item({BlendEquation::add, BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha}, "blend.over"));
+    items.push_back(mixed_pairs_item("blend.over-mixed"));
+    items.push_back(blended_slopes_item(false, 72, "blend.over-slopes"));
+    items.push_back(blended_slopes_item(true, 73, "blend.over-slopes-perspective"));
     items.push_back(overlaps_item(Format::rgba8, 1.0f / 255.0f, "blend.overlaps"));
     items.push_back(overlaps_item(Format::rgba16f, 0x1.8p-3f, "blend.overlaps-half"));
     items.push_back(nan_item(BlendEquation::max, "blend.max"));

@@ -140,6 +140,32 @@ Item codes_item() {
     return item;
 }
 
+// A clear value is no vertex colour, so that its conversion is seen where vertex colours have 8 bits. Each channel is
+// slightly above the middle of an even code and the next one, and times 255 it is that middle in binary32.
+Item clear_item(int first, const std::string& name) {
+    Item item{.name = name, .decides = {"unorm_rounding"}, .width = 8, .height = 8};
+    int found = 0;
+    for (int code = first; found < 4; code += 2) {
+        const float middle = static_cast<float>(code) + 0.5f, value = std::nextafter(middle / 255.0f, 1.0f);
+        if (value * 255.0f == middle) item.clear[static_cast<std::size_t>(found++)] = value;
+    }
+    Draw draw;
+    add_box(item, draw, 0, 0, 4, 8, {0, 1, 0, 1});
+    item.draws = {draw};
+    return item;
+}
+
+// The same for halves: between two of them, slightly above their middle, and above the largest finite one.
+Item clear_halves_item() {
+    Item item{.name = "color.clear-halves", .decides = {"half_rounding"}, .width = 8, .height = 8};
+    item.color = Format::rgba16f;
+    item.clear = {0x1.004p0f, 0x1.00201p0f, 65530.0f, -0x1.006p-3f};
+    Draw draw;
+    add_box(item, draw, 0, 0, 4, 8, {0, 1, 0, 1});
+    item.draws = {draw};
+    return item;
+}
+
 // Flat values of many exponents, at and near the middle between two halves.
 Item halves_item() {
     Item item{.name = "color.halves", .decides = {"half_rounding"}, .color = Format::rgba16f};
@@ -173,6 +199,9 @@ void add_colors(std::vector<Item>& items) {
     items.push_back(split_weights_item(70, "color.split-weights"));
     items.push_back(slivers_item(69, "color.slivers"));
     items.push_back(codes_item());
+    items.push_back(clear_item(20, "color.clear"));
+    items.push_back(clear_item(160, "color.clear-again"));
+    items.push_back(clear_halves_item());
     items.push_back(halves_item());
 }
 

@@ -38,6 +38,14 @@ Item slopes_item(DepthFormat format, int count, std::uint64_t seed, const std::s
     return item;
 }
 
+// A depth range whose ends are no whole numbers.
+Item range_item(DepthFormat format, std::uint64_t seed, const std::string& name) {
+    Item item = slopes_item(format, 60, seed, name);
+    item.depth_near = 0.3f;
+    item.depth_far = 0.85f;
+    return item;
+}
+
 // One cell of 8 x 8 pixels per triangle that distinguishes two neighbouring reciprocals.
 Item split_reciprocals_item(std::uint64_t seed, const std::string& name) {
     Item item{.name = name, .decides = depth_fields, .width = 128, .height = 128};
@@ -115,6 +123,26 @@ Item offset_flat_item(DepthFormat format, const std::string& name) {
     return item;
 }
 
+// Offsets that move depths of up to 3 codes inside the depth range beyond either of its ends.
+Item offset_beyond_item(DepthFormat format, float near, float far, const std::string& name) {
+    Item item{.name = name, .decides = {"raster.depth_limits", "raster.z_clip"}};
+    item.depth = format;
+    item.depth_near = near;
+    item.depth_far = far;
+    RandomGenerator random{33};
+    const float code = format == DepthFormat::d16 ? 0x1p-15f : 0x1p-23f;
+    for (int y = 0; y < item.height; y += 8) {
+        const float end = y % 16 == 0 ? -1.0f : 1.0f;
+        Draw draw{.offset = {true, 0, end * static_cast<float>(4 << (y / 8))}};
+        for (int x = 0; x < item.width; x += 8) {
+            const auto left = static_cast<float>(x), top = static_cast<float>(y);
+            add_box(item, draw, left, top, left + 8, top + 8, white, end - end * code * random.between(0, 3));
+        }
+        item.draws.push_back(draw);
+    }
+    return item;
+}
+
 }  // namespace
 
 void add_depth(std::vector<Item>& items) {
@@ -123,6 +151,9 @@ void add_depth(std::vector<Item>& items) {
     items.push_back(slopes_item(DepthFormat::d16, 24, 23, "depth.d16"));
     items.push_back(slopes_item(DepthFormat::d24, 60, 24, "depth.d24-again"));
     items.push_back(slopes_item(DepthFormat::d32f, 60, 25, "depth.d32f-again"));
+    items.push_back(range_item(DepthFormat::d24, 27, "depth.range-d24"));
+    items.push_back(range_item(DepthFormat::d16, 28, "depth.range-d16"));
+    items.push_back(range_item(DepthFormat::d32f, 29, "depth.range-d32f"));
     items.push_back(split_reciprocals_item(26, "depth.split-reciprocals"));
     items.push_back(codes_item(DepthFormat::d24, "depth.codes-d24"));
     items.push_back(codes_item(DepthFormat::d16, "depth.codes-d16"));
@@ -131,6 +162,11 @@ void add_depth(std::vector<Item>& items) {
     items.push_back(offset_item(DepthFormat::d32f, "offset.d32f"));
     items.push_back(offset_flat_item(DepthFormat::d24, "offset.flat-d24"));
     items.push_back(offset_flat_item(DepthFormat::d32f, "offset.flat-d32f"));
+    items.push_back(offset_beyond_item(DepthFormat::d24, 0, 1, "offset.beyond-d24"));
+    items.push_back(offset_beyond_item(DepthFormat::d16, 0, 1, "offset.beyond-d16"));
+    items.push_back(offset_beyond_item(DepthFormat::d32f, 0, 1, "offset.beyond-d32f"));
+    items.push_back(offset_beyond_item(DepthFormat::d24, 0.25f, 0.75f, "offset.beyond-range-d24"));
+    items.push_back(offset_beyond_item(DepthFormat::d32f, 0.25f, 0.75f, "offset.beyond-range-d32f"));
 }
 
 }  // namespace strata::probe

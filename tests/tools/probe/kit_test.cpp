@@ -153,3 +153,32 @@ TEST_CASE("the kit distinguishes a reciprocal of 24 to 30 bits from one with a d
             CHECK(difference(*draw_item(one, item, y).answer, *draw_item(other, item, y).answer).depth > 0);
         }
 }
+
+// Vertex colours of 8 bits hide the rounding to codes and halves, and no plane reaches beyond the depth range if
+// polygons are clipped at its ends.
+TEST_CASE("clear values and polygon offset show roundings and depth limits that vertices cannot") {
+    DeviceProfile device = *pipeline::find_profile("direct3d11");
+    device.raster.plane_rule = rasterizer::PlaneRule::exact;
+    device.raster.color = rasterizer::ColorInterpolation::weights_8bit;
+    device.raster.interpolation.vertex_color_bits = 8;
+    const auto names_of_same = [&](std::string_view key, const std::vector<std::string>& names) {
+        std::vector<std::string> same;
+        const ProfileField& f = field(key);
+        for (const std::string& name : names) {
+            const Item& item = *std::ranges::find(kit(), name, &Item::name);
+            for (int value = f.lowest; value <= f.highest; value += f.step) {
+                DeviceProfile other = device;
+                f.set(other, value);
+                if (f.value(other) == f.value(device) || !is_valid(other)) continue;
+                const Reply a = draw_item(device, item, YDirection::up), b = draw_item(other, item, YDirection::up);
+                if (a.answer == b.answer) same.push_back(name + ' ' + pipeline::text_of(f, other));
+            }
+        }
+        return same;
+    };
+    const std::vector<std::string> none;
+    CHECK(names_of_same("unorm_rounding", {"color.clear", "color.clear-again"}) == none);
+    CHECK(names_of_same("half_rounding", {"color.clear-halves"}) == none);
+    CHECK(names_of_same("raster.depth_limits", {"offset.beyond-range-d24", "offset.beyond-range-d32f"}) == none);
+    CHECK(names_of_same("raster.depth_rounding", {"depth.range-d24"}) == none);
+}

@@ -30,10 +30,11 @@ int main(int argc, char** argv) {
         equal += trip.is_equal() ? 1 : 0;
         whole += trip.found.tally.equal == trip.found.tally.all ? 1 : 0;
         fmt::print(
-            "{} {}: kit {} of {}, unseen {} of {} differ (coverage {}, depth {}, colour {}), refused by one {}:{}\n", i,
-            trip.is_equal() ? "equal" : "OTHER", trip.found.tally.all - trip.found.tally.equal, trip.found.tally.all,
+            "{} {}: kit {} of {}, unseen {} of {} differ (coverage {}, depth {}, colour {}), refused by one {}; "
+            "open: {}:{}\n",
+            i, trip.is_equal() ? "equal" : "OTHER", trip.found.tally.all - trip.found.tally.equal, trip.found.tally.all,
             d.coverage + d.depth + d.color, d.pixels, d.coverage, d.depth, d.color, trip.refused_by_one,
-            other_values_of(trip));
+            fmt::join(trip.open_but_visible, " "), other_values_of(trip));
         std::fflush(stdout);
     }
     fmt::print("{} of {} profiles come back with every pixel of 20 unseen scenes; {} with every pixel of the kit\n",

@@ -37,6 +37,16 @@ TEST_CASE("three random devices are inferred from their answers alone") {
     }
 }
 
+TEST_CASE("two random devices have no open field with another value that a picture shows") {
+    const std::vector<Item> unseen = unseen_scenes(2200, 20);
+    for (const int number : {4246, 4249}) {
+        const RoundTrip trip = round_trip(random_profile(number), unseen, YDirection::up);
+        INFO("profile " << number);
+        CHECK(trip.open_but_visible == std::vector<std::string>{});
+        CHECK(trip.found.tally.equal == trip.found.tally.all);
+    }
+}
+
 TEST_CASE(
     "where a device draws is decided before what it draws so that the clip volume that covers its pixels is found") {
     // Clipped at the view volume, with the planes of unclipped triangles; no built-in profile does this.

@@ -55,6 +55,8 @@ KitItem item_of(const json& described) {
     item.color = format_of(described.at("color"));
     if (!described.at("depth").is_null()) item.depth = format_of(described.at("depth"));
     item.depth_range = pair_of(described.at("depth_range"));
+    const std::vector<std::uint32_t> clear = words_of(described.at("clear").get<std::string>());
+    for (std::size_t c = 0; c < 4; ++c) item.clear[c] = std::bit_cast<float>(clear.at(c));
     for (const json& draw : described.at("draws")) item.draws.push_back(draw_of(draw));
     return item;
 }

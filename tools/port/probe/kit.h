@@ -33,6 +33,7 @@ struct KitItem {
     Format color;
     std::optional<Format> depth;
     std::array<float, 2> depth_range{0, 1};
+    std::array<float, 4> clear{};
     std::vector<KitDraw> draws;
 };
 

@@ -58,7 +58,7 @@ void Painter::draw(const KitItem& item) const {
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_ALWAYS);
     (item.depth ? glEnable : glDisable)(GL_DEPTH_TEST);
-    glClearColor(0, 0, 0, 0);
+    glClearColor(item.clear[0], item.clear[1], item.clear[2], item.clear[3]);
     glClearDepth(1.0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glUseProgram(program_.name());

@@ -94,7 +94,7 @@ function drawItem(device, item, target) {
   gl.depthMask(true);
   gl.depthFunc(gl.ALWAYS);
   gl[item.depth === null ? 'disable' : 'enable'](gl.DEPTH_TEST);
-  gl.clearColor(0, 0, 0, 0);
+  gl.clearColor(...floatsOf(item.clear));
   gl.clearDepth(1);
   gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
   gl.useProgram(device.draw);
