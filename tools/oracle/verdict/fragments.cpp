@@ -128,14 +128,17 @@ SceneFragments::SceneFragments(const RunInput& input, std::uint64_t bytes)
       setting_{setting_of(input.list, input.view, input.options.background)},
       instance_of_{instances_of(input)} {
     find_nearness(input.list, input.view, instance_of_, setting_);
+    far_code_ = rasterizer::max_code(input.profile.depth_buffer(input.options.depth));
     std::mutex mutex;
     std::vector<rasterizer::Rect> rects;
     behind_ = draw([&](TileLists&& tile) {
         const std::scoped_lock lock{mutex};
         rects.push_back(tile.rect);
         count_ += tile.fragments.size();
-        for (std::size_t p = 0; p + 1 < tile.start.size(); ++p)
+        for (std::size_t p = 0; p + 1 < tile.start.size(); ++p) {
             most_visible_ = std::max<std::size_t>(most_visible_, tile.hidden[p] - tile.start[p]);
+            count_at_far_plane_ += tile.opaque[p] == far_code_ && tile.hidden[p] < tile.start[p + 1] ? 1 : 0;
+        }
         keeps_ = keeps_ && count_ * sizeof(Fragment) <= bytes;
         if (keeps_)
             kept_.push_back(std::move(tile));
@@ -146,7 +149,6 @@ SceneFragments::SceneFragments(const RunInput& input, std::uint64_t bytes)
     std::ranges::sort(kept_, {}, [](const TileLists& t) { return std::pair{t.rect.y0, t.rect.x0}; });
     index_tiles();
     blank_ = rest_of_frame(behind_.width, behind_.height, rects);
-    far_code_ = rasterizer::max_code(input.profile.depth_buffer(input.options.depth));
 }
 
 // Renders the scene and passes each tile to `take`. Blank tiles are not processed one by one: the renderer runs only
@@ -227,7 +229,9 @@ PixelList SceneFragments::at(const TileLists& tile, std::size_t pixel) const noe
     const peeling::AsShown shown{input_.options, input_.profile};  // tiles count rows in memory order
     PixelList list{.x = tile.rect.x0 + static_cast<int>(pixel % width),
                    .y = shown.row(tile.rect.y0 + static_cast<int>(pixel / width))};
-    const std::uint32_t first = tile.start[pixel], hidden = tile.hidden[pixel], end = tile.start[pixel + 1];
+    const std::uint32_t first = tile.start[pixel], end = tile.start[pixel + 1];
+    const bool shows_all = shows_at_far_plane_ && tile.opaque[pixel] == far_code_;
+    const std::uint32_t hidden = shows_all ? end : tile.hidden[pixel];
     list.visible = {tile.fragments.data() + first, hidden - first};
     list.hidden = {tile.fragments.data() + hidden, end - hidden};
     list.opaque = tile.opaque[pixel];

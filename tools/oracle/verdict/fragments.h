@@ -72,6 +72,11 @@ class SceneFragments {
 
     // Sets the colour that the candidate has where nothing is drawn, if that is one colour and not the background's.
     void set_seen_background(const std::optional<Rgba>& color) { setting_.seen_background = color; }
+    // Shows fragments at the greatest depth where there is no opaque surface: a port without a depth test composites
+    // those that interpolation moves beyond the far plane, while LESS against the cleared depth fails.
+    void show_at_far_plane(bool is_shown) { shows_at_far_plane_ = is_shown; }
+    [[nodiscard]] std::uint64_t count_at_far_plane() const noexcept { return count_at_far_plane_; }  // in pixels
+
     // Computes the other possible coverage of pixels at edges; does nothing for scenes that are too large.
     void find_coverages();
 
@@ -96,7 +101,8 @@ class SceneFragments {
     std::vector<std::uint32_t> tile_of_{};   // per pixel of the frame: its tile, from 1; 0: no fragments
     std::vector<rasterizer::Rect> blank_{};  // the area outside the tiles that ran
     std::shared_ptr<const Coverages> coverages_{};
-    bool keeps_ = true;
+    bool keeps_ = true, shows_at_far_plane_ = false;
+    std::uint64_t count_at_far_plane_ = 0;
     std::uint64_t count_ = 0;
     std::size_t most_visible_ = 0;
 };

@@ -82,6 +82,9 @@ std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
     if (account.at_edges > 0)
         add(fmt::format("{} at edges, slivers or depths that nearly meet: as another rasterizer snaps or breaks ties",
                         pixels(account.at_edges)));
+    if (v.shown_at_far_plane > 0)
+        add(fmt::format("at {} with fragments at the far plane's depth: all are composited, as without a depth test",
+                        pixels(v.shown_at_far_plane)));
     if (const std::string alpha = describe(v.alpha); !alpha.empty()) add(alpha);
     if (const auto& wrong = wrong_pixels(v); !wrong.empty()) {
         const std::uint32_t first = wrong[0], width = static_cast<std::uint32_t>(v.width);
@@ -154,6 +157,7 @@ std::string to_json(const Verdict& v, const pipeline::DrawList& list) {
     for (const Rule& rule : v.alike) document["alike"].push_back(name(rule.kind));
     document["kinds"] = v.kinds;
     document["stopped"] = v.is_stopped;
+    if (v.shown_at_far_plane > 0) document["shown_at_far_plane"] = v.shown_at_far_plane;
     if (!v.distinguishing_command.empty()) document["telling"] = v.distinguishing_command;
     document["first_wrong"] = ordered_json::array();
     constexpr std::size_t most = 16;

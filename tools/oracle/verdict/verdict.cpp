@@ -218,6 +218,7 @@ Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits
     Work& work = *scene.setting().work;
     work.restart();
     scene.set_seen_background(std::nullopt);
+    scene.show_at_far_plane(false);
     const std::uint64_t of_fragments = limits.of_fragment * scene.count();
     const Storage storage = storage_of(candidate.code());
     const Choices all = choices(candidate);
@@ -241,6 +242,16 @@ Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits
         Sample sample = even;
         auto right = account_for(all.definite, {}, scene, candidate, sample);
         if (right && leaves_little_open(*right)) return is_right(*std::move(right), even);
+    }
+    if (scene.count_at_far_plane() > 0) {
+        scene.show_at_far_plane(true);
+        Sample shown = sampled(scene, candidate, most_sampled);
+        auto right = account_for(all.definite, {}, scene, candidate, shown);
+        if (right && leaves_little_open(*right)) {
+            verdict.shown_at_far_plane = scene.count_at_far_plane();
+            return is_right(*std::move(right), shown);
+        }
+        scene.show_at_far_plane(false);
     }
     scene.find_coverages();
     const Sample even = sampled(scene, candidate, most_sampled);

@@ -19,7 +19,8 @@ namespace strata::oracle::verdict {
 
 struct Verdict {
     bool is_right = false;
-    int width = 0;  // of the picture, in pixels
+    int width = 0;                         // of the picture, in pixels
+    std::uint64_t shown_at_far_plane = 0;  // pixels at which the port has no depth test against the cleared depth
     SceneFacts facts{};
     CheckedAccount right{};                      // the closest account of the right structure
     AlphaChecked alpha{};                        // of a picture whose colours are all right

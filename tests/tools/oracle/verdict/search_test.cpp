@@ -114,6 +114,20 @@ TEST_CASE("a port that changes nothing is right with every order of blending") {
         CHECK(judged(opened, picture_of_port(opened, port_of_codes(order), {})).is_right);
 }
 
+// LESS against the cleared depth of 1 hides them; a port without a depth test has nothing to compare with.
+TEST_CASE("fragments at the depth of the far plane are right where a port without a depth test composites them") {
+    OpenedScene opened{"planes:count=3", 48, 36};
+    for (int column = 0; column < 4; ++column)  // z = w
+        opened.view.projection[column][2] = opened.view.projection[column][3];
+    const auto show_all = [](PortList& l) { std::swap(l.visible, l.hidden); };
+    const Verdict all = judged(opened, picture_of_port(opened, port_of_codes(Order::under), show_all));
+    CHECK(all.is_right);
+    CHECK(all.shown_at_far_plane > 100);
+    const Verdict none = judged(opened, picture_of_port(opened, port_of_codes(Order::under), {}));
+    CHECK(none.is_right);
+    CHECK(none.shown_at_far_plane == 0);
+}
+
 TEST_CASE("a peel that is stopped early is described by the layers that it has composited") {
     OpenedScene opened{"showroom", 48, 48};
     opened.options.max_passes = 2;  // of three layers
