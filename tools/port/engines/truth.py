@@ -73,11 +73,14 @@ CANNOT = {("molstar", "gradient")}
 
 # A wrong picture that no listed mistake explains is called wrong without a name.
 UNNAMED = "no one mistake explains them all"
-JUDGMENTS = ["true", "wrong without a name", "right called wrong without a name", "false"]
+NOT_DECIDED = "not decided:"
+JUDGMENTS = ["true", "not decided", "wrong without a name", "right called wrong without a name", "false"]
 
 
 def judgment(true, status, verdict):
     """Judges Strata's verdict, given a Truth, or None for a right picture: one of JUDGMENTS. `false` is a wrong verdict without reservation."""
+    if verdict.startswith(NOT_DECIDED):
+        return "not decided"
     if status == 0:
         return "true" if true is None or (true.told_by(verdict) and "one depth" in verdict) else "false"
     if UNNAMED in verdict:
