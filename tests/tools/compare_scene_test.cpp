@@ -94,6 +94,20 @@ TEST_CASE("floats that sum codes of another profile are correct by its rules at 
     CHECK(found.out.find("\n  by the rules of profile llvmpipe_sse; ") != std::string::npos);
 }
 
+// SwiftShader's own setup explains a pixel at the edge of an opaque surface, and other snapping the colours of three.
+TEST_CASE("a pixel at an edge that another profile covers is correct next to others that other snapping explains") {
+    const Folder folder;
+    const std::string scene = "showroom --orbit 80,10 --background 0.2,0.3,0.5";
+    const std::string draw = "strata render " + scene +
+                             " --size 48x36 --profile swiftshader --algorithm batched --color-format rgba8 "
+                             "--result-format rgba32f -q -o a.exr";
+    REQUIRE(shell(folder, draw).status == 0);
+    const CommandResult right = shell(folder, "strata compare " + scene + " a.exr");
+    INFO(right.out << right.err);
+    CHECK(right.status == 0);
+    CHECK(right.out.find("\n  by the rules of profile swiftshader; ") != std::string::npos);
+}
+
 TEST_CASE("explain --candidate reports which layers a port composited at a pixel") {
     const Folder folder;
     REQUIRE(shell(folder, "strata render teapot --size 24x18 --algorithm front_to_back --max-passes 2 -q -o a.png")
