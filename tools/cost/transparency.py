@@ -39,7 +39,8 @@ ROWS = ["weighted_blended", "moments", "moments_quantized", "stochastic --stocha
 FLICKERS = ["weighted_blended", "moments", "stochastic --stochastic-samples 8", "multi_layer", "hybrid_transparency", "linked_list --pixel-nodes 8",
             "linked_list", "dual", "front_to_back_ties"]
 EPSILON = "dual --compare-epsilon 1e-4"  # a band of depths that count as equal
-UNORDERED = ("linked_list", "linked_list --pixel-nodes 8", "atomic_loop", "hybrid_transparency", "multi_layer", "adaptive", "moments_quantized")  # need buffers or ordered views
+# Algorithms that need buffers or ordered views.
+UNORDERED = ("linked_list", "linked_list --pixel-nodes 8", "atomic_loop", "hybrid_transparency", "multi_layer", "adaptive", "moments_quantized")
 # What a port asks for: the words of the advice, most bytes a pixel, most passes, and what is left out.
 DEMANDS = [("one pass and 16 bytes a pixel", 16, 1, ("linked_list",)), ("two passes and 48 bytes a pixel", 48, 2, ("linked_list",)),
            ("two passes and 100 bytes a pixel", 100, 2, ("linked_list",)), ("blending alone", math.inf, math.inf, UNORDERED),

@@ -51,12 +51,12 @@ def gltf(path, meshes):
 
 def hair(path):
     """A bundle of thin quads from one side to the other, alpha 0.3 at the root and 0.05 at the tip."""
-    draw, mesh = random.Random(1), Mesh()
+    numbers, mesh = random.Random(1), Mesh()
     for _ in range(HAIRS):
-        root = (draw.gauss(0, 0.15), -1, draw.gauss(0, 0.15))
-        tip = (root[0] + draw.gauss(0, 0.2), 1, root[2] + draw.gauss(0, 0.2))
+        root = (numbers.gauss(0, 0.15), -1, numbers.gauss(0, 0.15))
+        tip = (root[0] + numbers.gauss(0, 0.2), 1, root[2] + numbers.gauss(0, 0.2))
         width = 0.004
-        shade = draw.uniform(0.2, 0.6)
+        shade = numbers.uniform(0.2, 0.6)
         color = (shade, shade * 0.7, shade * 0.4)
         mesh.quad([(root[0] - width, root[1], root[2]), (root[0] + width, root[1], root[2]), (tip[0] + width, tip[1], tip[2]),
                    (tip[0] - width, tip[1], tip[2])], [(*color, 0.3), (*color, 0.3), (*color, 0.05), (*color, 0.05)])
@@ -65,13 +65,13 @@ def hair(path):
 
 def foliage(path):
     """Leaves with MASK, whose corners of alpha 0 cut their shape, and panes of glass among them."""
-    draw, leaves, panes = random.Random(2), Mesh(), Mesh()
+    numbers, leaves, panes = random.Random(2), Mesh(), Mesh()
     for _ in range(LEAVES):
-        turn, tilt, size = draw.uniform(0, math.tau), draw.uniform(-1, 1), draw.uniform(0.04, 0.1)
+        turn, tilt, size = numbers.uniform(0, math.tau), numbers.uniform(-1, 1), numbers.uniform(0.04, 0.1)
         right = (size * math.cos(turn), size * tilt, size * math.sin(turn))
-        up = (0, size, size * draw.uniform(-1, 1))
-        green = (draw.uniform(0.05, 0.3), draw.uniform(0.3, 0.8), 0.1)
-        square(leaves, [draw.uniform(-1, 1) for _ in range(3)], right, up, [(*green, 1), (*green, 0.2), (*green, 1), (*green, 0.2)])
+        up = (0, size, size * numbers.uniform(-1, 1))
+        green = (numbers.uniform(0.05, 0.3), numbers.uniform(0.3, 0.8), 0.1)
+        square(leaves, [numbers.uniform(-1, 1) for _ in range(3)], right, up, [(*green, 1), (*green, 0.2), (*green, 1), (*green, 0.2)])
     for i in range(12):
         tint = (0.3 + 0.05 * i, 0.6, 0.9 - 0.05 * i, 0.25)
         square(panes, (0, 0, -0.9 + 0.16 * i), (1, 0, 0.2), (0, 1, 0), [tint] * 4)
@@ -80,13 +80,13 @@ def foliage(path):
 
 def smoke(path):
     """Three panes of glass, submitted first, in front of soft grey quads."""
-    draw, glass, puffs = random.Random(3), Mesh(), Mesh()
+    numbers, glass, puffs = random.Random(3), Mesh(), Mesh()
     for i, tint in enumerate(((0.9, 0.3, 0.2, 0.5), (0.2, 0.8, 0.3, 0.5), (0.2, 0.3, 0.9, 0.5))):
         square(glass, (-0.3 + 0.3 * i, 0, 1 + 0.1 * i), (0.5, 0, 0), (0, 0.7, 0), [tint] * 4)
     for _ in range(PUFFS):
-        grey, size = draw.uniform(0.5, 0.9), draw.uniform(0.2, 0.5)
-        corners = [(grey, grey, grey, draw.uniform(0.02, 0.12)) for _ in range(4)]
-        square(puffs, [draw.uniform(-0.8, 0.8), draw.uniform(-0.8, 0.8), draw.uniform(-1, 0.5)], (size, 0, 0), (0, size, 0), corners)
+        grey, size = numbers.uniform(0.5, 0.9), numbers.uniform(0.2, 0.5)
+        corners = [(grey, grey, grey, numbers.uniform(0.02, 0.12)) for _ in range(4)]
+        square(puffs, [numbers.uniform(-0.8, 0.8), numbers.uniform(-0.8, 0.8), numbers.uniform(-1, 0.5)], (size, 0, 0), (0, size, 0), corners)
     gltf(path, [("BLEND", glass), ("BLEND", puffs)])
 
 
