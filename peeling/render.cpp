@@ -71,8 +71,8 @@ struct Renderer::State {
         const bool counts_across = algorithm.runs_loops && ((limits_passes() && is_open) || instruments.log_passes);
         const bool counts_nodes = algorithm.shares_nodes && options.algorithm.frame_nodes > 0;
         const bool is_group = instruments.samples.group != nullptr;
-        const bool covers_apart = options.raster.sample_coverage != rasterizer::SampleCoverage{};
-        return algorithm.whole_frame || covers_apart || counts_across || counts_nodes || options.counters || is_group
+        return algorithm.whole_frame || leaves_samples() || counts_across || counts_nodes || options.counters ||
+                       is_group
                    ? Execution::literal
                    : options.execution;
     }
@@ -83,7 +83,7 @@ struct Renderer::State {
         if (work.path != Path::literal) return;
         if (instruments.samples.group != nullptr)
             work.why = "loads of another sample need all samples step by step";
-        else if (options.raster.sample_coverage != rasterizer::SampleCoverage{})
+        else if (leaves_samples())
             work.why = "sample coverage and alpha to coverage are applied in every pass";
         else if (options.counters)
             work.why = "--counters counts in literal execution";
@@ -147,10 +147,12 @@ struct Renderer::State {
         return 2 * *deepest + 2;
     }
 
-    // A peel that keeps depths in float targets may not terminate if blending flushes them. A correct one takes at most
-    // six passes per iteration, and one iteration per fragment of the deepest pixel.
+    // A peel that keeps depths in float targets may not terminate if blending flushes them, nor one that counts in its
+    // program if samples are left out after it. A correct one takes at most six passes per iteration, and one iteration
+    // per fragment of the deepest pixel.
     [[nodiscard]] int own_pass_limit(const Algorithm& algorithm, const Frame& f) {
-        const bool may_stall = needs(algorithm, Feature::float_targets) && flushes_depths(profile, options.raster);
+        const bool may_stall =
+            (needs(algorithm, Feature::float_targets) && flushes_depths(profile, options.raster)) || leaves_samples();
         if (options.max_passes > 0 || !may_stall) return options.max_passes;
         if (!deepest) deepest = static_cast<int>(deepest_pixel(*f.transparent));
         return 6 * (*deepest + 1);
@@ -237,6 +239,10 @@ struct Renderer::State {
         return options.raster.interpolation != rasterizer::Interpolation::sample;
     }
 
+    [[nodiscard]] bool leaves_samples() const noexcept {
+        return options.raster.sample_coverage != rasterizer::SampleCoverage{};
+    }
+
     [[nodiscard]] AsShown shown() const noexcept { return {options, profile}; }
 
     // The options imply that every pass of a peel sees the same fragments and compares the depth that it stores.
@@ -270,7 +276,7 @@ struct Renderer::State {
         note_path(algorithm, instruments, result.frame.work);
         result.seconds.audit = result.frame.watched * result.seconds.passes;
         result.seconds.passes -= result.seconds.audit;
-        if (!algorithm.compares_own_codes) note_endless(f, options, result.frame);
+        if (!algorithm.compares_own_codes || leaves_samples()) note_endless(f, options, result.frame);
         if (!audit) return;
         const Stopwatch stopwatch{result.seconds.audit};
         result.audit = audit->finish(result.frame);
@@ -357,12 +363,13 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress, c
         result.outcome = Outcome::refused;
         return result;
     }
-    Frame frame = state_->frame(*find_algorithm("unsorted"));
+    const Algorithm& one_pass = *find_algorithm("unsorted");
+    Frame frame = state_->frame(one_pass);
     frame.nearest_depth = frame.trace = false;
     frame.published_format = target_format(frame.key_request().format);
     const Stopwatch watch{result.seconds.passes};
-    const Execution execution = state_->options.counters ? Execution::literal : state_->options.execution;
-    result.frame = run(frame, draw_depth, execution, state_->options.threads, progress, instruments);
+    result.frame = run(frame, draw_depth, state_->execution(one_pass, instruments), state_->options.threads, progress,
+                       instruments);
     std::swap(result.frame.depth, result.frame.color);
     state_->shown().turn(result.frame);
     result.seconds.geometry = state_->lists.seconds();

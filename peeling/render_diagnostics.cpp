@@ -64,12 +64,14 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
 void note_endless(const Frame& frame, const RenderOptions& options, FrameResult& result) {
     if (options.max_passes > 0 || frame.max_passes == 0 || result.passes.geometry < frame.max_passes) return;
     const std::string why =
-        !frame.quantize_reference
+        options.raster.sample_coverage != rasterizer::SampleCoverage{}
+            ? "the program counts fragments of samples that are left out"
+        : !frame.quantize_reference
             ? "the compared depth is not rounded like the stored one, so a fragment lies behind itself"
             : "some fragments' compared depth lies behind the depth that they stored themselves";
     merge(result.diagnostics, {Fault::endless, 0, -1, -1,
                                "stopped after " + std::to_string(frame.max_passes) +
-                                   " geometry passes, twice what the deepest pixel needs: " + why});
+                                   " geometry passes, more than the deepest pixel needs: " + why});
 }
 
 void note_set_up(const rasterizer::SetupCounters& counters, std::vector<Diagnostic>& all) {

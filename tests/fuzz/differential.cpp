@@ -71,7 +71,9 @@ const std::vector<std::function<void(FrameCase&)>>& simplifications() {
     static const std::vector<std::function<void(FrameCase&)>> all{
         [](FrameCase& f) { f.options.raster = plain.raster; },
         [](FrameCase& f) { f.options.raster.scissor.reset(); },
-        [](FrameCase& f) { f.options.raster.sample.reset(); },
+        [](FrameCase& f) { f.options.raster.sample_coverage = {}; },
+        [](FrameCase& f) { f.options.raster.interpolation = plain.raster.interpolation; },
+        [](FrameCase& f) { leave_samples(f.options.raster); },
         [](FrameCase& f) { f.options.raster.polygon_offset = {}; },
         [](FrameCase& f) { f.options.raster.clip_plane_count = 0; },
         [](FrameCase& f) { f.options.raster.cull = plain.raster.cull; },
@@ -115,7 +117,7 @@ const std::vector<std::function<void(FrameCase&)>>& simplifications() {
                            }); },
         [](FrameCase& f) {
             f.profile = *pipeline::find_profile(f.profile.name);
-            if (f.profile.raster.coverage == rasterizer::CoverageRule::float_spans) f.options.raster.sample.reset();
+            if (f.profile.raster.coverage == rasterizer::CoverageRule::float_spans) leave_samples(f.options.raster);
         },
         [](FrameCase& f) { f.profile = *pipeline::find_profile("ideal"); },
         [](FrameCase& f) {

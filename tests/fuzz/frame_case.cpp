@@ -4,6 +4,7 @@
 
 #include "peeling/registry.h"
 #include "pipeline/device/profile_fields.h"
+#include "pipeline/device/sample_points.h"
 #include "tests/fuzz/scene_of_bytes.h"
 
 namespace strata::fuzz {
@@ -183,6 +184,24 @@ void choose_of_algorithms(ByteSource& bytes, peeling::AlgorithmOptions& o) {
     o.stochastic_samples = 1 + bytes.below(peeling::most_stochastic_samples);
 }
 
+// The frame of one of several samples, with values at the pixel and samples left out. Without bytes, none of it.
+void choose_sample(ByteSource& bytes, const DeviceProfile& profile, rasterizer::RasterState& state) {
+    using rasterizer::Interpolation;
+    const std::size_t least = profile.sample_positions == SamplePositions::standard ? 3 : 2;
+    const int samples = std::array{2, 4, 8}[static_cast<std::size_t>(bytes.below(static_cast<int>(least)))];
+    state.interpolation = std::array{Interpolation::sample, Interpolation::centre,
+                                     Interpolation::centroid}[static_cast<std::size_t>(bytes.below(3))];
+    if (bytes.below(4) == 3) {
+        rasterizer::SampleCoverage& coverage = state.sample_coverage;
+        coverage.by_alpha = bytes.below(2) == 1;
+        if (bytes.below(2) == 1) coverage.value = bytes.fraction();
+        coverage.is_inverted = coverage.value && bytes.below(2) == 1;
+        if (bytes.below(2) == 1) coverage.mask = static_cast<std::uint8_t>(bytes.below(256));
+    }
+    if (state.interpolation == Interpolation::sample && state.sample_coverage == rasterizer::SampleCoverage{}) return;
+    set_sample(state, profile.sample_positions, samples, static_cast<std::size_t>(bytes.below(samples)));
+}
+
 std::vector<ExecutionWay> ways(ByteSource& bytes) {
     std::vector<ExecutionWay> all{way(bytes, literal, Simd::best), way(bytes, rasterizing, Simd::best),
                                   way(bytes, replaying, Simd::best)};
@@ -214,6 +233,8 @@ FrameCase make_case(std::span<const std::uint8_t> data) {
         frame.options.raster.sample = rasterizer::SamplePoint{x, y};
     }
     choose_of_algorithms(bytes, frame.options.algorithm);
+    if (frame.profile.raster.coverage == rasterizer::CoverageRule::snapped_edges)
+        choose_sample(bytes, frame.profile, frame.options.raster);
     return frame;
 }
 

@@ -32,6 +32,15 @@ struct FrameCase {
     std::vector<ExecutionWay> ways;  // the first is the definition: literal
 };
 
+// Makes the frame that of a pixel's centre.
+inline void leave_samples(rasterizer::RasterState& state) {
+    const rasterizer::RasterState plain;
+    state.sample.reset();
+    state.interpolation = plain.interpolation;
+    state.sample_coverage = plain.sample_coverage;
+    state.sample_count = state.sample_number = 0;
+}
+
 [[nodiscard]] FrameCase make_case(std::span<const std::uint8_t> bytes);
 
 void print(std::ostream& out, const ExecutionWay& way);

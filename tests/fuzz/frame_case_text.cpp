@@ -52,6 +52,10 @@ void print_options(std::ostream& out, const peeling::RenderOptions& o) {
         out << ", scissor {" << r.scissor->x0 << ", " << r.scissor->y0 << ", " << r.scissor->x1 << ", " << r.scissor->y1
             << '}';
     if (r.sample) out << ", sample {" << r.sample->x << ", " << r.sample->y << '}';
+    out << ", interpolation " << number(r.interpolation) << ", sample " << r.sample_number << " of " << r.sample_count;
+    const rasterizer::SampleCoverage& coverage = r.sample_coverage;
+    out << ", coverage by alpha " << coverage.by_alpha << ", share " << coverage.value.value_or(1) << " inverted "
+        << coverage.is_inverted << ", mask " << int{coverage.mask};
     for (int i = 0; i < r.clip_plane_count; ++i) {
         const auto& p = r.clip_planes[static_cast<std::size_t>(i)];
         out << ", plane {" << p.a << ", " << p.b << ", " << p.c << ", " << p.d << '}';

@@ -139,7 +139,7 @@ void forgive(peeling::RenderResult& found, const peeling::RenderResult& expected
 bool check_relations(std::span<const std::uint8_t> bytes, RelationCounts& held, std::ostream& out) {
     FrameCase frame = make_case(bytes);
     frame.profile = *pipeline::find_profile(frame.profile.name);  // rules of other devices have their own relations
-    if (frame.profile.raster.coverage == rasterizer::CoverageRule::float_spans) frame.options.raster.sample.reset();
+    if (frame.profile.raster.coverage == rasterizer::CoverageRule::float_spans) leave_samples(frame.options.raster);
     const peeling::RenderResult expected = run(frame, frame.ways.front());
     for (const Relation& relation : relations) {
         if (expected.outcome == peeling::Outcome::refused && relation.stays == Stays::picture) continue;

@@ -82,3 +82,31 @@ TEST_CASE("a sample that is masked out makes a peel end after one pass") {
     SampledRenderer renderer{list, {}, *find_profile("geforce8"), options, {.samples = 4}};
     CHECK(renderer.render(*find_algorithm("front_to_back")).frame.passes.geometry == 1);
 }
+
+TEST_CASE("a depth pass leaves out samples in every execution") {
+    const strata::pipeline::DrawList list = glass_of(0.5f);
+    RenderOptions options;
+    options.width = options.height = 4;
+    options.depth = strata::pipeline::DepthFormat::d24;
+    options.raster.sample_coverage.mask = 0b10;
+    for (const Running& running : all_ways_of_running) {
+        running.apply(options);
+        SampledRenderer renderer{list, {}, *find_profile("geforce8"), options, {.samples = 2}};
+        CHECK(renderer.sample(0).depth_pass().frame.depth.codes[5] == 0xffffff);
+        CHECK(renderer.sample(1).depth_pass().frame.depth.codes[5] < 0xffffff);
+    }
+}
+
+TEST_CASE("a published peel that counts in its program ends if all samples are left out") {
+    const strata::pipeline::DrawList list = glass_of(0.5f);
+    RenderOptions options;
+    options.width = options.height = 4;
+    options.raster.sample_coverage.mask = 0;
+    options.formulation = strata::pipeline::Formulation::published;  // does not reset its registers
+    SampledRenderer renderer{list, {}, *find_profile("ideal"), options, {.samples = 2}};
+    const RenderResult result = renderer.render(*find_algorithm("coherent_ideal"));
+    CHECK(result.frame.passes.geometry <= 12);
+    CHECK(std::ranges::any_of(result.frame.diagnostics, [](const strata::pipeline::Diagnostic& diagnostic) {
+        return diagnostic.detail.find("samples that are left out") != std::string::npos;
+    }));
+}
