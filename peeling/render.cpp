@@ -359,11 +359,13 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress, c
     result.refusal = check_size(state_->profile, state_->options.width, state_->options.height);
     if (!result.refusal) result.refusal = check_depth(state_->profile, state_->depth);
     if (!result.refusal) result.refusal = check(state_->profile, state_->color_format);
+    const Algorithm& one_pass = *find_algorithm("unsorted");
+    if (!result.refusal)
+        result.refusal = check_shading(state_->profile, one_pass, state_->depth, state_->options.raster.interpolation);
     if (result.refusal) {
         result.outcome = Outcome::refused;
         return result;
     }
-    const Algorithm& one_pass = *find_algorithm("unsorted");
     Frame frame = state_->frame(one_pass);
     frame.nearest_depth = frame.trace = false;
     frame.published_format = target_format(frame.key_request().format);

@@ -97,6 +97,16 @@ TEST_CASE("a depth pass leaves out samples in every execution") {
     }
 }
 
+TEST_CASE("a depth pass refuses shading once a pixel where the depth is replaced") {
+    const strata::pipeline::DrawList list = glass_of(0.5f);
+    RenderOptions options;
+    options.width = options.height = 4;
+    options.depth_path = strata::rasterizer::DepthPath::depth_replace;
+    options.raster.interpolation = strata::rasterizer::Interpolation::centre;
+    SampledRenderer renderer{list, {}, *find_profile("ideal"), options, {.samples = 2}};
+    CHECK(renderer.sample(0).depth_pass().outcome == strata::peeling::Outcome::refused);
+}
+
 TEST_CASE("a published peel that counts in its program ends if all samples are left out") {
     const strata::pipeline::DrawList list = glass_of(0.5f);
     RenderOptions options;

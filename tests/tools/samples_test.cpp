@@ -53,6 +53,28 @@ TEST_CASE("a picture records its samples and its command draws it again") {
     }
 }
 
+TEST_CASE("a pack of one sample has its shading and coverage and passes and explain take them") {
+    const Folder folder;
+    const std::string of_sample = " --size 24x18 -q --samples 4 --sample 1 --algorithm front_to_back ";
+    for (const std::string shading : {" --shading pixel", " --shading pixel --interpolate centroid",
+                                      " --alpha-to-coverage --sample-coverage 0.75 --sample-mask 14"}) {
+        const std::string options = of_sample + shading + " --alpha 0.5 --max-passes 9 ";
+        CHECK(shell(folder, "strata golden teapot -o pack" + options).status == 0);
+        CHECK(shell(folder, "strata golden --check pack").status == 0);
+        CHECK(shell(folder, "strata render teapot --no-audit -o a.exr" + options).status == 0);
+        CHECK(shell(folder, "strata render pack --algorithm front_to_back -q --no-audit -o b.exr").status == 0);
+        CHECK(shell(folder, "strata compare a.exr b.exr --exact").status == 0);
+        CHECK(shell(folder, "strata render teapot --no-audit -o c.exr --alpha 0.5 --max-passes 9" + of_sample).status ==
+              0);
+        CHECK(shell(folder, "strata compare a.exr c.exr --exact").status == 1);
+        const std::string pixel = shell(folder, "strata explain teapot --pixel 12,9 --json" + options).out;
+        CHECK(pixel == shell(folder, "strata explain pack --pixel 12,9 -q --algorithm front_to_back --json").out);
+        CHECK(pixel !=
+              shell(folder, "strata explain teapot --pixel 12,9 --json --alpha 0.5 --max-passes 9" + of_sample).out);
+        CHECK(shell(folder, "rm -r pack a.exr b.exr c.exr").status == 0);
+    }
+}
+
 TEST_CASE("a pack of one sample draws that sample") {
     const Folder folder;
     const std::string options = " --size 24x18 -q --samples 2 --sample 0 --algorithm front_to_back ";

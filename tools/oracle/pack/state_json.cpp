@@ -1,5 +1,8 @@
 #include "tools/oracle/pack/state_json.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "rasterizer/base/input_error.h"
 #include "scenes/packs/json_fields.h"
 
@@ -42,6 +45,58 @@ void algorithm(Io& io, std::optional<peeling::AlgorithmOptions>& given) {
     io.if_any("algorithm", given, [](auto& outer, const std::string& key, auto& options) {
         outer.nested(key, options, [](auto& inner, auto& o) { algorithm_fields(inner, o); });
     });
+}
+
+// The part of the state that only a frame of one sample has, beside the sample's point.
+struct SampledState {
+    rasterizer::Interpolation interpolation{};
+    std::vector<rasterizer::SamplePoint> points;  // of all samples, if the centroid or the coverage needs them
+    int number = 0;                               // of the frame's own sample
+    rasterizer::SampleCoverage coverage;
+    friend bool operator==(const SampledState&, const SampledState&) = default;
+};
+
+[[nodiscard]] SampledState sampled_state(const rasterizer::RasterState& raster) {
+    return {raster.interpolation,
+            {raster.samples.begin(), raster.samples.begin() + raster.sample_count},
+            raster.sample_number,
+            raster.sample_coverage};
+}
+
+template <class Io, class P>
+void point_fields(Io& io, P& point) {
+    io.whole("x", point.x, 0, 15);
+    io.whole("y", point.y, 0, 15);
+}
+
+// Left out where all are their defaults.
+template <class Io>
+void sampling(Io& io, std::optional<SampledState>& given) {
+    io.if_any("sampling", given, [](auto& outer, const std::string& key, auto& state) {
+        outer.nested(key, state, [](auto& inner, auto& s) {
+            inner.choice("interpolation", s.interpolation);
+            inner.list("samples", s.points, [](auto& each, auto& point) { point_fields(each, point); });
+            inner.whole("number", s.number, 0, 7);
+            inner.flag("alpha_to_coverage", s.coverage.by_alpha);
+            inner.optional("coverage", s.coverage.value,
+                           [](auto& one, const std::string& k, auto& v) { one.real(k, v); });
+            inner.flag("inverts_coverage", s.coverage.is_inverted);
+            inner.whole("mask", s.coverage.mask, std::uint8_t{0}, std::uint8_t{255});
+        });
+    });
+}
+
+// The samples' number is limited by the array; Renderer checks the rest.
+void take_sampled_state(const SampledState& given, const std::string& file, rasterizer::RasterState& raster) {
+    if (given.points.size() > raster.samples.size())
+        throw InputError(file, "/state/sampling/samples", "at most 8 points", std::to_string(given.points.size()));
+    if (given != SampledState{} && !raster.sample)
+        throw InputError(file, "/state/sampling", "a frame of one sample", "a state without the field 'sample'");
+    raster.interpolation = given.interpolation;
+    raster.sample_count = static_cast<int>(given.points.size());
+    std::ranges::copy(given.points, raster.samples.begin());
+    raster.sample_number = given.number;
+    raster.sample_coverage = given.coverage;
 }
 
 template <class Io, class O>
@@ -103,10 +158,7 @@ void fields(Io& io, O& o) {
         });
     });
     io.if_any("sample", raster.sample, [](auto& outer, const std::string& key, auto& given) {
-        outer.nested(key, given, [](auto& inner, auto& point) {
-            inner.whole("x", point.x, 0, 15);
-            inner.whole("y", point.y, 0, 15);
-        });
+        outer.nested(key, given, [](auto& inner, auto& point) { point_fields(inner, point); });
     });
     io.choice("y_direction", raster.y_direction);
     io.choice("cull", raster.cull);
@@ -128,6 +180,9 @@ nlohmann::ordered_json state_json(const RenderOptions& options) {
     std::optional<peeling::AlgorithmOptions> given;
     if (options.algorithm != peeling::AlgorithmOptions{}) given = options.algorithm;
     algorithm(io, given);
+    std::optional<SampledState> sampled = sampled_state(options.raster);
+    if (*sampled == SampledState{}) sampled.reset();
+    sampling(io, sampled);
     return std::move(io.object);
 }
 
@@ -139,6 +194,9 @@ RenderOptions read_state(const nlohmann::json& manifest, const std::string& file
     std::optional<peeling::AlgorithmOptions> given;
     algorithm(io, given);
     options.algorithm = given.value_or(peeling::AlgorithmOptions{});
+    std::optional<SampledState> sampled;
+    sampling(io, sampled);
+    if (sampled) take_sampled_state(*sampled, file, options.raster);
     io.end();
     return options;
 }

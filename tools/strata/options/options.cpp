@@ -120,14 +120,12 @@ void check_samples(const RunOptions& options) {
     if (loads_others && (options.samples == 1 || options.sample))
         throw CLI::ValidationError("--load-sample and --composite-sample go with all samples of a picture of several");
     const rasterizer::SampleCoverage& coverage = options.render.raster.sample_coverage;
-    if (coverage != rasterizer::SampleCoverage{} && options.samples == 1)
+    const bool is_of_pack = options.render.raster.sample.has_value();
+    if (coverage != rasterizer::SampleCoverage{} && options.samples == 1 && !is_of_pack)
         throw CLI::ValidationError(
             "--alpha-to-coverage, --sample-coverage and --sample-mask go with --samples 2, 4 or 8");
     if (coverage.is_inverted && !coverage.value)
         throw CLI::ValidationError("--sample-coverage-invert goes with --sample-coverage");
-    // A pack's state does not have them.
-    if (!options.resolves && (options.shades_pixels || coverage != rasterizer::SampleCoverage{}))
-        throw CLI::ValidationError("--shading pixel and coverage of samples go with render, layers and diagnose");
     if (options.shades_pixels && options.samples == 1)
         throw CLI::ValidationError("--shading pixel goes with --samples 2, 4 or 8");
     if (options.interpolate && !options.shades_pixels)
