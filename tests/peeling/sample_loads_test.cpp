@@ -1,11 +1,13 @@
 // Tests pixel shading and loads of other samples against a model that peels one pixel's samples with plain numbers: the
 // captured fragments of every sample, and nothing of the pipeline.
 #include <algorithm>
+#include <bit>
 #include <catch2/catch.hpp>
 
 #include "peeling/audit/region_trace.h"
 #include "peeling/sampled_renderer.h"
 #include "pipeline/device/sample_points.h"
+#include "rasterizer/rules/depth_code.h"
 #include "tests/peeling/rendering.h"
 #include "tests/support/random_triangles.h"
 
@@ -48,11 +50,12 @@ struct ModelPixel {
     std::array<std::uint32_t, model_samples> opaque{};
 };
 
-[[nodiscard]] FrameFragments captured(const TriangleScene& scene, RenderOptions options, std::size_t sample) {
+[[nodiscard]] FrameFragments captured(const TriangleScene& scene, RenderOptions options, std::size_t sample,
+                                      const char* algorithm = "front_to_back") {
     const auto& profile = *find_profile("geforce8_dx101");
     strata::pipeline::set_sample(options.raster, profile.sample_positions, model_samples, sample);
     Renderer renderer{scene.list, scene.view, profile, options};
-    return renderer.fragments(*find_algorithm("front_to_back"));
+    return renderer.fragments(*find_algorithm(algorithm));
 }
 
 // The code that a program compares is that of the depth at the pixel; d24 codes of binary32 depths, to nearest.
@@ -137,6 +140,109 @@ TEST_CASE("front to back under every load rule composites at each sample what a 
             INFO(static_cast<int>(interpolation) << ' ' << static_cast<int>(rule) << ' ' << composited);
             CHECK(wrong == 0);
             CHECK(composited > 1000);
+            if (rule != LoadedSample::own) CHECK(unlike > 100);
+        }
+    }
+}
+
+namespace {
+
+// Dual peeling of a pixel in plain numbers: what each sample composites at one end, depths in order.
+struct DualPixel {
+    std::array<std::vector<float>, model_samples> depths;  // in submission order
+    std::array<float, model_samples> opaque{};
+};
+struct DualEnds {
+    float minus_near = -1, far = -1;
+};
+struct DualSequences {
+    Sequences front, back;  // depths by their order
+};
+
+[[nodiscard]] DualEnds loaded_ends(LoadedSample rule, const std::array<DualEnds, model_samples>& stored,
+                                   std::size_t own) {
+    if (rule == LoadedSample::own) return stored[own];
+    if (rule == LoadedSample::zero) return stored[0];
+    DualEnds sum{0, 0};  // the mean in binary32, sample by sample
+    for (const DualEnds& ends : stored) sum.minus_near += ends.minus_near, sum.far += ends.far;
+    return {sum.minus_near * 0.25f, sum.far * 0.25f};
+}
+
+[[nodiscard]] DualSequences peeled_dual(const DualPixel& pixel, LoadedSample rule, int passes) {
+    DualSequences sequences;
+    std::array<DualEnds, model_samples> ends{};
+    for (int pass = 0; pass < passes; ++pass) {
+        std::array<DualEnds, model_samples> next{};
+        for (std::size_t s = 0; s < model_samples; ++s) {
+            const DualEnds range = loaded_ends(rule, ends, s);
+            for (const float z : pixel.depths[s]) {
+                const bool is_visible = z < loaded(rule, pixel.opaque, s);
+                const bool is_inside = is_visible && z >= -range.minus_near && z <= range.far;
+                if (pass > 0 && is_inside && z == -range.minus_near) {
+                    sequences.front[s].push_back(strata::rasterizer::ordered_code(z));
+                } else if (pass > 0 && is_inside && z == range.far) {
+                    sequences.back[s].push_back(strata::rasterizer::ordered_code(z));
+                } else if (pass == 0 ? is_visible : is_inside) {
+                    next[s] = {std::max(next[s].minus_near, -z), std::max(next[s].far, z)};
+                }
+            }
+        }
+        ends = next;
+    }
+    return sequences;
+}
+
+[[nodiscard]] std::vector<DualPixel> dual_pixels(const TriangleScene& scene, const RenderOptions& options) {
+    std::vector<DualPixel> pixels(model_size * model_size);
+    for (std::size_t s = 0; s < model_samples; ++s) {
+        const FrameFragments found = captured(scene, options, s, "dual_independent");
+        for (const auto& f : found.all) pixels[f.pixel].depths[s].push_back(f.shader_z);
+        for (std::size_t p = 0; p < pixels.size(); ++p) pixels[p].opaque[s] = std::bit_cast<float>(found.opaque[p]);
+    }
+    return pixels;
+}
+
+[[nodiscard]] std::vector<DualSequences> traced_ends(const std::vector<std::vector<RegionTrace>>& traces) {
+    std::vector<DualSequences> sequences(model_size * model_size);
+    for (std::size_t s = 0; s < traces.size(); ++s)
+        for (const RegionTrace& region : traces[s])
+            for (const auto& entry : region.entries) {
+                const auto width = static_cast<std::uint32_t>(region.rect.width());
+                const auto x = static_cast<std::uint32_t>(region.rect.x0) + entry.pixel % width;
+                const auto y = static_cast<std::uint32_t>(region.rect.y0) + entry.pixel / width;
+                DualSequences& at = sequences[y * model_size + x];
+                (entry.side == strata::pipeline::Side::front ? at.front : at.back)[s].push_back(entry.key);
+            }
+    return sequences;
+}
+
+}  // namespace
+
+TEST_CASE("dual under every load rule composites at both ends what a model of its fragments does") {
+    const TriangleScene scene = random_triangles(4502, 30);
+    for (const Interpolation interpolation : {Interpolation::sample, Interpolation::centre, Interpolation::centroid}) {
+        RenderOptions options = model_options(interpolation);
+        const std::vector<DualPixel> pixels = dual_pixels(scene, options);
+        for (const LoadedSample rule : {LoadedSample::own, LoadedSample::zero, LoadedSample::resolved}) {
+            SampledRenderer renderer{
+                scene.list, scene.view, *find_profile("geforce8_dx101"), options, {.samples = 4, .loads = rule}};
+            std::vector<std::vector<RegionTrace>> traces;
+            const auto results = renderer.render_traced(*find_algorithm("dual_independent"), traces);
+            REQUIRE(results.size() == model_samples);
+            const std::vector<DualSequences> drawn = traced_ends(traces);
+            std::uint64_t wrong = 0, composited = 0, unlike = 0;
+            for (std::size_t p = 0; p < pixels.size(); ++p) {
+                const DualSequences right = peeled_dual(pixels[p], LoadedSample::own, 40);
+                for (std::size_t s = 0; s < model_samples; ++s) {
+                    const DualSequences model = peeled_dual(pixels[p], rule, results[s].frame.passes.geometry);
+                    wrong += model.front[s] == drawn[p].front[s] && model.back[s] == drawn[p].back[s] ? 0 : 1;
+                    composited += model.front[s].size() + model.back[s].size();
+                    unlike += model.front[s] == right.front[s] && model.back[s] == right.back[s] ? 0 : 1;
+                }
+            }
+            INFO(static_cast<int>(interpolation) << ' ' << static_cast<int>(rule) << ' ' << composited);
+            CHECK(wrong == 0);
+            if (rule != LoadedSample::resolved) CHECK(composited > 500);  // a mean is at no fragment, if all differ
             if (rule != LoadedSample::own) CHECK(unlike > 100);
         }
     }
