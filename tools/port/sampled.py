@@ -56,8 +56,9 @@ def resolved(build, folder, words, profile, driver, shading):
                "--interpolate", shading, "--picture-only"])
     wrong = 0
     for name in pack.results:
-        # With the centroid front_to_back differed by 5 pixels of one teapot picture. The cause is not known; perhaps llvmpipe takes the
-        # centroid of the samples that pass an early depth test.
+        # With the centroid front_to_back differs, by 146 of 7,081 pixels of the random scene in rgba32f. dual and weighted_average, whose
+        # passes do not test against the depth that they write, are equal: so perhaps llvmpipe takes the centroid of the samples that pass
+        # an early depth test.
         if shading == "centroid" and name == "front_to_back":
             continue
         picture = folder / f"{name}.exr"
