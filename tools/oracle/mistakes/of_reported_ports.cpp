@@ -1,5 +1,5 @@
-// tools/oracle/mistakes/of_reported_ports.cpp - mistakes in the algorithms with a fixed number of passes that public
-// reports of ports describe; the report is named beside each.
+// tools/oracle/mistakes/of_reported_ports.cpp - mistakes that public reports of ports describe, most of them in the
+// algorithms with a fixed number of passes; the report is named beside each that has one.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -70,6 +70,52 @@ bool replaces_revealage(Experiment& e) {
     e.alterations.push_back({.pass = [names = e.names](Region&, PassState& state, pipeline::PassKind kind) {
         if (kind == pipeline::PassKind::geometry && names->is(state.color[1], "revealage")) state.blend[1] = Blend{};
     }});
+    return true;
+}
+
+// candlewick, pull request 110: the weight is missing in the sum of alphas, which then does not divide it out.
+bool sums_plain_alphas(Experiment& e) {
+    if (!is_by(e, "weighted_blended")) return false;
+    return behind_geometry_pass(e, "sums", [](const ProgramCall& call) { call.out.color[0][3] = call.in.color[3]; });
+}
+
+// The weighted alpha is written to both targets.
+bool weighs_revealage(Experiment& e) {
+    if (!is_by(e, "weighted_blended")) return false;
+    return behind_geometry_pass(e, "sums", [](const ProgramCall& call) {
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < lanes_in(call); ++i)
+                call.out.color[1][c][i] = std::min(call.out.color[0][3][i], 1.0f);
+    });
+}
+
+// Moments are built from depths from -1 to 1 and read at depths from 0 to 1.
+bool reads_moments_at_window_depth(Experiment& e) {
+    if (!is_by(e, "moments") || e.options.raster.depth_order == rasterizer::DepthOrder::greater) return false;
+    e.alterations.push_back({.program = [names = e.names](const ProgramCall& call, const std::function<void()>& run) {
+        if (call.kind != pipeline::PassKind::geometry || !names->is(call.state.color[0], "sums")) return run();
+        const Lanes<float> own = call.in.shader_z;
+        for (std::size_t i = 0; i < lanes_in(call); ++i) call.in.shader_z[i] = (own[i] + 1.0f) / 2.0f;
+        run();
+        call.in.shader_z = own;
+    }});
+    return true;
+}
+
+// The last quad blends the front, which is premultiplied, by its coverage.
+bool multiplies_front_again(Experiment& e) {
+    const bool covers = is_by(e, "dual");
+    if (!covers && !is_by(e, "front_to_back")) return false;
+    e.alterations.push_back(
+        {.program = [names = e.names, covers](const ProgramCall& call, const std::function<void()>& run) {
+            run();
+            if (call.kind != pipeline::PassKind::full_screen || !names->is(call.state.color[0], "result")) return;
+            const ColorLanes& front = call.loads.color(0);
+            for (std::size_t i = 0; i < lanes_in(call); ++i) {
+                const float through = covers ? 1.0f - front[3][i] : front[3][i];
+                for (std::size_t c = 0; c < 3; ++c) call.out.color[0][c][i] -= front[c][i] * through;
+            }
+        }});
     return true;
 }
 
@@ -148,6 +194,14 @@ const Mistake reported_mistakes[] = {
      sums_straight_colors},
     {"revealage_replaced", "the product of (1 - alpha) not blended: the last fragment's stays", ChangedPart::steps,
      replaces_revealage},
+    {"alphas_not_weighted", "the weight missing in the sum of alphas that the colours are divided by",
+     ChangedPart::programs, sums_plain_alphas},
+    {"revealage_weighted", "alpha times the weight in the product of (1 - alpha) too", ChangedPart::programs,
+     weighs_revealage},
+    {"moments_of_two_ranges", "moments built from depths from -1 to 1 and read at depths from 0 to 1",
+     ChangedPart::programs, reads_moments_at_window_depth},
+    {"front_multiplied_again", "the front multiplied by its coverage again as it is laid over the back",
+     ChangedPart::programs, multiplies_front_again},
     {"mask_by_alpha_alone", "samples masked by alpha to coverage: fragments of one alpha cover the same samples",
      ChangedPart::programs, masks_by_alpha},
     {"absorbance_all_its_own", "fragments seen through all of their own absorbance", ChangedPart::programs,

@@ -18,10 +18,11 @@ struct NamedIn {
 const NamedIn mistakes_by_scene[] = {
     {"random.weighted_blended",
      {"weight_grows_with_depth", "weight_without_alpha", "revealage_cleared_to_0", "revealage_added", "sums_in_bytes",
-      "background_added_whole", "sums_not_premultiplied", "revealage_replaced"}},
+      "background_added_whole", "sums_not_premultiplied", "revealage_replaced", "alphas_not_weighted",
+      "revealage_weighted"}},
     {"random.moments",
      {"alpha_not_corrected", "moments_without_bias", "moments_of_window_depth", "absorbance_by_log2",
-      "absorbance_all_its_own", "absorbance_none_its_own"}},
+      "absorbance_all_its_own", "absorbance_none_its_own", "moments_of_two_ranges"}},
     {"random.stochastic",
      {"sums_in_bytes", "background_added_whole", "alpha_not_corrected", "one_mask_for_all", "mask_by_alpha_alone"}},
     {"random.bucket_peel", {"buckets_of_whole_range", "bounds_cleared_to_0", "far_ends_lost"}},
@@ -30,7 +31,9 @@ const NamedIn mistakes_by_scene[] = {
       "list_skips_equal_depths"}},
     {"random.atomic_loop", {"one_node_too_few", "tail_lost", "core_again_in_tail", "tail_blended_twice"}},
     {"random.hybrid_transparency", {"one_node_too_few", "tail_lost", "tail_not_averaged", "core_again_in_tail"}},
-    {"random.multi_layer", {"one_node_too_few", "overflow_not_merged"}}};
+    {"random.multi_layer", {"one_node_too_few", "overflow_not_merged"}},
+    {"showroom.front_to_back", {"front_multiplied_again"}},
+    {"showroom.dual", {"front_multiplied_again"}}};
 
 }  // namespace
 
