@@ -60,6 +60,7 @@ set(strata_scenes_sources
   procedural/hard_cases/layers.cpp
   procedural/hard_cases/order.cpp
   procedural/hard_cases/planes.cpp
+  procedural/hard_cases/samples.cpp
   procedural/hard_cases/slivers.cpp
   procedural/parameters.cpp
   procedural/plane_stack.cpp

@@ -57,6 +57,7 @@ void add_facing_quad(CaseScene& scene, double w, const pipeline::Rgba& color);
 [[nodiscard]] std::span<const HardCase> plane_cases();
 [[nodiscard]] std::span<const HardCase> order_cases();
 [[nodiscard]] std::span<const HardCase> sliver_cases();
+[[nodiscard]] std::span<const HardCase> sample_cases();
 [[nodiscard]] std::span<const HardCase> clip_cases();
 [[nodiscard]] std::span<const HardCase> depth_range_cases();
 [[nodiscard]] std::span<const HardCase> layer_cases();

@@ -14,7 +14,7 @@ std::span<const HardCase> hard_cases() {
     static const std::vector<HardCase> cases = [] {
         std::vector<HardCase> all;
         for (const auto& some : {plane_cases(), order_cases(), sliver_cases(), clip_cases(), depth_range_cases(),
-                                 layer_cases(), alpha_cases(), input_cases(), frame_cases()})
+                                 layer_cases(), alpha_cases(), input_cases(), frame_cases(), sample_cases()})
             all.insert(all.end(), some.begin(), some.end());
         return all;
     }();
