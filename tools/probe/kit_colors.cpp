@@ -141,13 +141,18 @@ Item codes_item() {
 }
 
 // A clear value is no vertex colour, so that its conversion is seen where vertex colours have 8 bits. Each channel is
-// slightly above the middle of an even code and the next one, and times 255 it is that middle in binary32.
+// slightly below the middle of an odd code and the next one, and times 255 it is that middle in binary32. (Above an
+// even code SwiftShader's clear rounds the product half up: DRIVERS.md.)
 Item clear_item(int first, const std::string& name) {
     Item item{.name = name, .decides = {"unorm_rounding"}, .width = 8, .height = 8};
     int found = 0;
     for (int code = first; found < 4; code += 2) {
-        const float middle = static_cast<float>(code) + 0.5f, value = std::nextafter(middle / 255.0f, 1.0f);
-        if (value * 255.0f == middle) item.clear[static_cast<std::size_t>(found++)] = value;
+        const float middle = static_cast<float>(code) + 0.5f;
+        for (float value = middle / 255.0f; value * 255.0f == middle; value = std::nextafter(value, 0.0f))
+            if (double{value} * 255 < double{middle}) {
+                item.clear[static_cast<std::size_t>(found++)] = value;
+                break;
+            }
     }
     Draw draw;
     add_box(item, draw, 0, 0, 4, 8, {0, 1, 0, 1});
@@ -199,8 +204,8 @@ void add_colors(std::vector<Item>& items) {
     items.push_back(split_weights_item(70, "color.split-weights"));
     items.push_back(slivers_item(69, "color.slivers"));
     items.push_back(codes_item());
-    items.push_back(clear_item(20, "color.clear"));
-    items.push_back(clear_item(160, "color.clear-again"));
+    items.push_back(clear_item(21, "color.clear"));
+    items.push_back(clear_item(161, "color.clear-again"));
     items.push_back(clear_halves_item());
     items.push_back(halves_item());
 }

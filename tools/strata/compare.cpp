@@ -18,6 +18,7 @@
 #include "tools/strata/compare_pages.h"
 #include "tools/strata/compare_scene.h"
 #include "tools/strata/messages.h"
+#include "tools/strata/options/choices.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/report/plain_page.h"
@@ -161,6 +162,15 @@ void check_without_files(const CompareOptions& options) {
             throw CLI::ValidationError(std::string(name) + " needs --exact, or a picture as the reference");
 }
 
+// Several samples per pixel have a verdict only.
+void check_samples(const CompareOptions& options, bool is_verdict) {
+    if (options.run.samples == 1) return;
+    if (!is_verdict)
+        throw CLI::ValidationError(
+            "--samples goes with a verdict on a picture of an exact algorithm, not with --exact or --tolerance");
+    if (!options.report.empty()) throw CLI::ValidationError("--samples has no --report");
+}
+
 // Files are written first, so they exist once the text appears on standard output.
 int compare(const CompareOptions& options) {
     check_outputs({{"--heat", options.heat, {".png"}},
@@ -169,7 +179,9 @@ int compare(const CompareOptions& options) {
                    {"--report", options.report, {".html"}}});
     if (scenes::is_pack(options.reference) && std::filesystem::is_directory(options.candidate))
         return compare_folders(options);
-    if (asks_for_verdict(options) && !is_approximate(options)) {
+    const bool is_verdict = asks_for_verdict(options) && !is_approximate(options);
+    check_samples(options, is_verdict);
+    if (is_verdict) {
         check_without_files(options);
         oracle::Picture picture = oracle::read_picture(options.candidate, options.layout);
         state_alpha(picture, options.alpha_form);
@@ -254,6 +266,9 @@ Command add_compare(CLI::App& root) {
     add_machine_options(*app, options->run.render);
     add_order_options(*app, options->run.render);
     add_view_options(*app, options->run);
+    options->run.resolves = true;
+    add_choice(*app, options->run.samples, "--samples", sample_counts,
+               "samples per pixel of the port; the verdict is about the mean of what they composite (default 1)");
     app->footer(
         "Examples:\n"
         "  strata render teapot --size 64x64 -o teapot.exr && strata compare teapot.exr teapot.exr\n"

@@ -187,7 +187,7 @@ Compositor::Operand Compositor::operand(const Means& means, const Layer& layer, 
     for (std::size_t c = 0; c < 3; ++c) {
         const Interval color = given(layer.color[c]);
         if (!o.is_premultiplied) {
-            o.color[c] = stored(color);
+            o.color[c] = source == Source::unrounded ? hull(color, Interval::of(layer.color[c])) : stored(color);
             continue;
         }
         // The product is first rounded to binary32; without slack that product is known exactly.
@@ -198,6 +198,9 @@ Compositor::Operand Compositor::operand(const Means& means, const Layer& layer, 
         } else {
             product = product.widened(product.magnitude() * 0x1p-23);
         }
+        // A program multiplies before its result is clamped: interpolation beyond an edge may exceed 1.
+        if (has_codes && (layer.color[c] > 1 || layer.color[c] < 0))
+            product = hull(product, Interval::of(layer.color[c]).widened(slack) * alpha);
         o.color[c] = stored(product);
     }
     return o;
@@ -211,10 +214,8 @@ Compositor::Channels Compositor::under(const Means& means, std::span<const Layer
     const StorageRounding color = has_few_bits ? few_bits(mixing.color_bits, means.end.rounding) : means.under;
     const StorageRounding weight = has_few_bits ? few_bits(mixing.weight_bits, means.end.rounding) : means.weight;
     Channels sum{Interval{}, Interval{}, Interval{}, Interval::of(mixing.first_through)};
-    if (mixing.first_through != 1) {
-        const Interval kept = means.weight.kept(sum[3], 1);  // rounded if it is a clear value, not if it is a factor
-        sum[3] = {std::min(sum[3].low, kept.low), std::max(sum[3].high, kept.high)};
-    }
+    // Rounded if it is a clear value, not if it is a factor.
+    if (mixing.first_through != 1) sum[3] = hull(sum[3], means.weight.kept(sum[3], 1));
     const bool may_be_rounded = means.end.source == Source::any;
     for (const Layer& layer : near_to_far) {
         const Operand o = operand(means, layer, stack.is_moved);
@@ -267,8 +268,7 @@ void Compositor::over(const Means& means, std::span<const Layer> near_to_far, co
                 if (may_be_rounded && c < 3) {
                     const Interval product = o.alpha * o.color[c];
                     const Interval layer = means.source.kept(product, product.magnitude());
-                    const Interval other = layer + rest_of(o.alpha) * onto[c];
-                    exact = {std::min(exact.low, other.low), std::max(exact.high, other.high)};
+                    exact = hull(exact, layer + rest_of(o.alpha) * onto[c]);
                 }
             }
             onto[c] = kept_by(means.blend, exact, magnitude, is_linear && c < 3);

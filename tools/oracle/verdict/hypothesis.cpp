@@ -190,6 +190,12 @@ class FamilyMaker {
     void add(Order order, const End& front, const End& back, double slack, HypothesisFamily& family) const {
         const auto is_loose = [](const End& end) { return end.rounding == Rounding::any && has_codes(end.storage); };
         if (looseness_ == Looseness::definite && (is_loose(front) || is_loose(back))) return;
+        // Codes show nothing of how halves were rounded, so that these hypotheses would only fit more mistakes.
+        const auto is_fine = [](const End& end) {
+            return end.storage == Storage::half && end.rounding != Rounding::any &&
+                   (end.rounding == Rounding::truncated || end.source == Source::stored);
+        };
+        if (has_codes(result_) && (is_fine(front) || is_fine(back))) return;
         const End nearest{result_, Source::unrounded, Rounding::nearest};
         family.members.push_back({.order = order,
                                   .front = front,

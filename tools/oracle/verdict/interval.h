@@ -31,6 +31,10 @@ struct Interval {
 [[nodiscard]] inline Interval operator+(Interval a, Interval b) noexcept {
     return {below(a.low + b.low), above(a.high + b.high)};
 }
+// The least interval that includes both.
+[[nodiscard]] inline Interval hull(Interval a, Interval b) noexcept {
+    return {std::min(a.low, b.low), std::max(a.high, b.high)};
+}
 // 1 - x.
 [[nodiscard]] inline Interval rest_of(Interval x) noexcept { return {below(1 - x.high), above(1 - x.low)}; }
 

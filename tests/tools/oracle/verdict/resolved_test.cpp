@@ -1,0 +1,79 @@
+// Tests verdicts on pictures with several samples per pixel against the resolved pictures of SampledRenderer, whose
+// samples are rendered and rounded step by step.
+#include "tools/oracle/verdict/resolved.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "peeling/sampled_renderer.h"
+#include "pipeline/device/sample_points.h"
+#include "tests/tools/oracle/verdict/opened_scene.h"
+
+using namespace strata;
+using namespace strata::oracle::verdict;
+using strata::test::OpenedScene;
+
+namespace {
+
+constexpr int samples = 4;
+
+oracle::Target resolved(const OpenedScene& opened, const std::string& algorithm, pipeline::Format format,
+                        int max_passes = 0) {
+    peeling::RenderOptions options = opened.options;
+    options.color_format = format;
+    options.audit = false;
+    if (max_passes > 0) options.max_passes = max_passes;
+    peeling::SampledRenderer renderer{opened.scene.list, opened.view, opened.profile, options, {.samples = samples}};
+    return oracle::as_target(renderer.render(*peeling::find_algorithm(algorithm)).frame.color, "color");
+}
+
+ResolvedVerdict judged_samples(const OpenedScene& opened, const oracle::Target& picture) {
+    std::vector<std::unique_ptr<SceneFragments>> all;
+    for (std::size_t number = 0; number < samples; ++number) {
+        peeling::RenderOptions options = opened.options;
+        pipeline::set_sample(options.raster, opened.profile.sample_positions, samples, number);
+        all.push_back(
+            std::make_unique<SceneFragments>(oracle::RunInput{opened.scene.list, opened.view, opened.profile, options},
+                                             std::numeric_limits<std::uint64_t>::max()));
+    }
+    return judge_resolved(all, Colors{picture});
+}
+
+}  // namespace
+
+TEST_CASE("the mean of right samples is right in each format and by each end of a peel") {
+    const OpenedScene opened{"showroom", 48, 36};
+    for (const std::string algorithm : {"front_to_back", "dual"})
+        for (const pipeline::Format format :
+             {pipeline::Format::rgba8, pipeline::Format::rgba16f, pipeline::Format::rgba32f}) {
+            const ResolvedVerdict verdict = judged_samples(opened, resolved(opened, algorithm, format));
+            INFO(algorithm << ' ' << pipeline::info(format).name << ": " << to_text(verdict, 48));
+            CHECK(verdict.is_right());
+            CHECK(verdict.pixels == 48 * 36);
+            CHECK(verdict.at_edges > 50);
+            CHECK(verdict.possible <= (has_codes(verdict.hypothesis.result.storage) ? 3 : 4096));
+        }
+}
+
+// llvmpipe evaluates 1/w at the pixel's centre, so that colours at a sample may exceed 1: a program multiplies them by
+// alpha before they are clamped. It also rounds each product of a blend.
+TEST_CASE("the mean of right samples is right where a profile interpolates beyond 1") {
+    OpenedScene opened{"showroom", 48, 36};
+    opened.profile = *pipeline::find_profile("llvmpipe");
+    for (const std::string algorithm : {"front_to_back", "dual"}) {
+        const ResolvedVerdict verdict = judged_samples(opened, resolved(opened, algorithm, pipeline::Format::rgba8));
+        INFO(algorithm << ": " << to_text(verdict, 48));
+        CHECK(verdict.is_right());
+    }
+}
+
+TEST_CASE("a port with one sample per pixel is wrong at edges only and one that loses layers elsewhere too") {
+    const OpenedScene opened{"planes:count=3", 48, 36};  // of one colour each
+    const ResolvedVerdict single = judged_samples(opened, *opened.picture("front_to_back", pipeline::Format::rgba8));
+    CHECK_FALSE(single.is_right());
+    CHECK(to_text(single, 48).find(", edges only: ") != std::string::npos);
+    const OpenedScene deep{"showroom", 48, 36};
+    const ResolvedVerdict early = judged_samples(deep, resolved(deep, "front_to_back", pipeline::Format::rgba8, 1));
+    CHECK_FALSE(early.is_right());
+    CHECK(early.wrong_at_edges < early.wrong_pixels.size());
+}

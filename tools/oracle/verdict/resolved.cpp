@@ -1,0 +1,264 @@
+#include "tools/oracle/verdict/resolved.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "tools/oracle/verdict/composite.h"
+#include "tools/oracle/verdict/structure.h"
+
+namespace strata::oracle::verdict {
+
+namespace {
+
+// The fragments of a pixel's samples.
+struct ResolvedPixel {
+    std::vector<PixelList> lists{};
+    std::array<double, 4> value{};  // the candidate's
+    std::uint32_t number = 0;       // row-major
+    std::size_t fragments = 0;
+};
+
+bool has_same_fragments(const PixelList& a, const PixelList& b) {
+    return std::ranges::equal(a.visible, b.visible, {}, &Fragment::primitive, &Fragment::primitive) &&
+           a.has_opaque == b.has_opaque;
+}
+
+bool is_at_edge(const ResolvedPixel& pixel) {
+    return !std::ranges::all_of(pixel.lists,
+                                [&](const PixelList& list) { return has_same_fragments(list, pixel.lists[0]); });
+}
+
+std::vector<ResolvedPixel> pixels_of(const std::vector<std::unique_ptr<SceneFragments>>& samples,
+                                     const Colors& candidate) {
+    const auto width = static_cast<std::size_t>(candidate.width());
+    std::vector<ResolvedPixel> pixels(width * static_cast<std::size_t>(candidate.height()));
+    for (const auto& sample : samples) {
+        std::mutex mutex;
+        sample->for_each_tile([&](const TileLists& tile) {
+            const std::scoped_lock lock{mutex};
+            for (std::size_t p = 0; p < tile.rect.area(); ++p) {
+                const PixelList list = sample->at(tile, p);
+                ResolvedPixel& pixel =
+                    pixels[static_cast<std::size_t>(list.y) * width + static_cast<std::size_t>(list.x)];
+                pixel.fragments += list.visible.size();
+                pixel.lists.push_back(list);
+            }
+        });
+    }
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        pixels[i].number = static_cast<std::uint32_t>(i);
+        pixels[i].value = candidate.at(static_cast<int>(i % width), static_cast<int>(i / width));
+    }
+    return pixels;
+}
+
+double unit_of(Storage storage) {
+    switch (storage) {
+        case Storage::unorm8: return 1.0 / 255;
+        case Storage::unorm10: return 1.0 / 1023;
+        case Storage::unorm16: return 1.0 / 65535;
+        case Storage::half: return 0x1p-11;
+        case Storage::single: break;
+    }
+    return 0x1p-22;
+}
+
+// A hypothesis about the samples, and the picture's storage.
+class Resolve {
+  public:
+    Resolve(const Hypothesis& hypothesis, Storage picture)
+        : compositor_{hypothesis}, unit_{unit_of(picture)}, is_float_{!has_codes(picture)} {}
+
+    // The mean of the samples, before the resolve stores it.
+    [[nodiscard]] std::array<Interval, 3> mean(const std::vector<Stack>& samples) const {
+        std::array<Interval, 3> sum{};
+        for (const Stack& stack : samples) {
+            const ReachableColor reach = compositor_.reach(stack);
+            for (std::size_t c = 0; c < 3; ++c) sum[c] = sum[c] + reach[c];
+        }
+        const auto share = Interval::of(1 / static_cast<double>(samples.size()));  // exact: a power of two
+        for (Interval& channel : sum) channel = channel * share;
+        return sum;
+    }
+    [[nodiscard]] bool holds(const std::array<Interval, 3>& mean, const std::array<double, 4>& value) const {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double error = is_float_ ? unit_ * std::max(mean[c].magnitude(), 0x1p-14) : unit_ * (0.5 + 0x1p-12);
+            if (!mean[c].widened(error).holds(value[c])) return false;
+        }
+        return true;
+    }
+    [[nodiscard]] double width(const std::array<Interval, 3>& mean) const {
+        double widest = 0;
+        for (const Interval& channel : mean) widest = std::max(widest, channel.high - channel.low);
+        return widest / unit_;
+    }
+
+  private:
+    Compositor compositor_;
+    double unit_;
+    bool is_float_;
+};
+
+// The number of wrong pixels among the given ones, and the sum of their intervals' widths; or more than the best cost.
+struct Cost {
+    std::size_t wrong = 0;
+    double width = 0;
+    friend bool operator<(const Cost& a, const Cost& b) noexcept {
+        return a.wrong != b.wrong ? a.wrong < b.wrong : a.width < b.width;
+    }
+};
+Cost cost_of(const Resolve& resolve, const std::vector<std::vector<Stack>>& stacks,
+             const std::vector<const ResolvedPixel*>& pixels, const Cost& best) {
+    Cost cost;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const auto mean = resolve.mean(stacks[i]);
+        cost.wrong += resolve.holds(mean, pixels[i]->value) ? 0 : 1;
+        cost.width += std::log2(1 + resolve.width(mean));
+        if (best < cost) break;
+    }
+    return cost;
+}
+
+std::vector<Stack> stacks_of(const ResolvedPixel& pixel, const Ties& ties, StackMaker& maker) {
+    std::vector<Stack> stacks;
+    for (const PixelList& list : pixel.lists) stacks.push_back(maker.right(list, ties));
+    return stacks;
+}
+
+// Of the pixels with the most fragments.
+std::vector<const ResolvedPixel*> deepest(const std::vector<ResolvedPixel>& pixels, std::size_t most) {
+    std::vector<const ResolvedPixel*> deep;
+    for (const ResolvedPixel& pixel : pixels) deep.push_back(&pixel);
+    std::ranges::stable_sort(deep, std::ranges::greater{}, &ResolvedPixel::fragments);
+    deep.resize(std::min(most, deep.size()));
+    return deep;
+}
+
+std::vector<Hypothesis> hypotheses(Storage picture) {
+    std::vector<Hypothesis> all;
+    std::vector<Storage> storages{picture};  // of the samples
+    for (const Storage floats : {Storage::half, Storage::single})
+        if (floats != picture) storages.push_back(floats);
+    for (const Storage storage : storages)
+        for (const HypothesisFamily& family : families(storage, {0, 0x1p-20}, Looseness::definite))
+            // One device blends both ends. A program that multiplies in front leaves one product to round there.
+            std::ranges::copy_if(family.members, std::back_inserter(all), [](const Hypothesis& h) {
+                return h.front.storage == h.back.storage &&
+                       (h.front.rounding == h.back.rounding || h.front.rounding == Rounding::nearest);
+            });
+    return all;
+}
+
+std::string first_line(const ResolvedVerdict& v) {
+    if (v.is_right())
+        return fmt::format(
+            "right: the mean of the samples at all {} pixels, {} of them at edges; intervals of at most "
+            "{:.2g} codes",
+            v.pixels, v.at_edges, v.possible);
+    return fmt::format("wrong: {} of {} pixels are not the mean of right samples{}", v.wrong_pixels.size(), v.pixels,
+                       v.wrong_at_edges == v.wrong_pixels.size()
+                           ? ", edges only: the samples of each have different fragments"
+                           : fmt::format("; {} of them at edges", v.wrong_at_edges));
+}
+
+}  // namespace
+
+namespace {
+
+// What is said about the samples.
+struct SamplesAccount {
+    Hypothesis hypothesis{};
+    Ties ties{};
+    std::size_t wrong = 0;  // of the pixels by which it was chosen
+};
+
+SamplesAccount closest(const std::vector<Hypothesis>& all, Storage picture,
+                       const std::vector<const ResolvedPixel*>& pixels, StackMaker& maker) {
+    SamplesAccount account;
+    Cost best{.wrong = pixels.size() + 1};
+    std::vector<std::vector<Stack>> previous;
+    for (std::size_t n = 0; n < ties_count; ++n) {
+        std::vector<std::vector<Stack>> stacks;
+        for (const ResolvedPixel* pixel : pixels) stacks.push_back(stacks_of(*pixel, ties_number(n), maker));
+        if (stacks == previous) continue;  // no fragments have equal depths
+        for (const Hypothesis& h : all) {
+            const Cost cost = cost_of(Resolve{h, picture}, stacks, pixels, best);
+            if (cost < best) best = cost, account = {h, ties_number(n), cost.wrong};
+        }
+        previous = std::move(stacks);
+    }
+    return account;
+}
+
+ResolvedVerdict checked(const SamplesAccount& account, Storage picture, const std::vector<ResolvedPixel>& pixels,
+                        StackMaker& maker) {
+    ResolvedVerdict verdict{.hypothesis = account.hypothesis, .pixels = pixels.size()};
+    const Resolve resolve{account.hypothesis, picture};
+    for (const ResolvedPixel& pixel : pixels) {
+        const bool at_edge = is_at_edge(pixel);
+        verdict.at_edges += at_edge ? 1 : 0;
+        const auto mean = resolve.mean(stacks_of(pixel, account.ties, maker));
+        verdict.possible = std::max(verdict.possible, resolve.width(mean));
+        if (resolve.holds(mean, pixel.value)) continue;
+        verdict.wrong_pixels.push_back(pixel.number);
+        verdict.wrong_at_edges += at_edge ? 1 : 0;
+    }
+    return verdict;
+}
+
+}  // namespace
+
+// The hypothesis is chosen by some of the pixels, then again with some of those that it does not explain.
+ResolvedVerdict judge_resolved(const std::vector<std::unique_ptr<SceneFragments>>& samples, const Colors& candidate) {
+    constexpr std::size_t few = 64, few_added = 32;
+    constexpr int most_tries = 6;
+    const Storage picture = storage_of(candidate.code());
+    const std::vector<ResolvedPixel> pixels = pixels_of(samples, candidate);
+    const std::vector<Hypothesis> all = hypotheses(picture);
+    std::vector<const ResolvedPixel*> some = deepest(pixels, few);
+    StackMaker maker{samples[0]->setting()};
+    SamplesAccount account = closest(all, picture, some, maker);
+    ResolvedVerdict best = checked(account, picture, pixels, maker);
+    // If no hypothesis explains these pixels, none explains the picture.
+    for (int i = 1; i < most_tries && account.wrong == 0 && !best.is_right(); ++i) {
+        const std::vector<std::uint32_t>& wrong = best.wrong_pixels;
+        const std::size_t step = wrong.size() / few_added + 1;
+        for (std::size_t k = 0; k < wrong.size(); k += step) some.push_back(&pixels[wrong[k]]);
+        account = closest(all, picture, some, maker);
+        ResolvedVerdict next = checked(account, picture, pixels, maker);
+        if (next.wrong_pixels.size() < wrong.size()) best = std::move(next);
+    }
+    return best;
+}
+
+std::string to_text(const ResolvedVerdict& v, int width) {
+    std::string text = first_line(v) + '\n';
+    text += fmt::format("  {}{}\n", v.is_right() ? "" : "closest: ", describe(v.hypothesis));
+    if (v.is_right()) return text;
+    const auto columns = static_cast<std::uint32_t>(width);
+    text += fmt::format("  the first wrong pixel is {},{}\n", v.wrong_pixels[0] % columns, v.wrong_pixels[0] / columns);
+    return text + "  strata diagnose --samples names mistakes of multisampling\n";
+}
+
+std::string to_json(const ResolvedVerdict& v, int width) {
+    nlohmann::ordered_json document{{"verdict", v.is_right() ? "right" : "wrong"},
+                                    {"sentence", first_line(v)},
+                                    {"pixels", v.pixels},
+                                    {"at_edges", v.at_edges},
+                                    {"wrong", v.wrong_pixels.size()},
+                                    {"wrong_at_edges", v.wrong_at_edges},
+                                    {"hypothesis", describe(v.hypothesis)},
+                                    {"possible", v.possible},
+                                    {"first_wrong", nlohmann::ordered_json::array()}};
+    const auto columns = static_cast<std::uint32_t>(width);
+    for (std::size_t i = 0; i < std::min<std::size_t>(16, v.wrong_pixels.size()); ++i)
+        document["first_wrong"].push_back({v.wrong_pixels[i] % columns, v.wrong_pixels[i] / columns});
+    return document.dump(2) + '\n';
+}
+
+}  // namespace strata::oracle::verdict

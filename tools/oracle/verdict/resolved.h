@@ -1,0 +1,35 @@
+// tools/oracle/verdict/resolved.h - decides whether a picture with several samples per pixel, which were resolved by
+// their mean, is right apart from rounding.
+//
+// Rule     A pixel is right if its value is in the mean of the intervals that the right structure has at its samples,
+//          with half a code of the resolve. One hypothesis and one rule for equal depths must hold for the whole
+//          picture. Samples are stored in the picture's format or in floats. No mistakes are searched: diagnose
+//          --samples names those of multisampling.
+// Source   GL 4.6 18.3.1: the resolve's filter is not specified; the mean is what profiles have (ResolveRule).
+// Tests    tests/tools/oracle/verdict/resolved_test.cpp
+#pragma once
+#include <memory>
+#include <string>
+
+#include "tools/oracle/verdict/hypothesis.h"
+#include "tools/oracle/verdict/sample.h"
+
+namespace strata::oracle::verdict {
+
+struct ResolvedVerdict {
+    Hypothesis hypothesis{};  // of the samples; the one with the fewest wrong pixels, then with the narrowest intervals
+    std::uint64_t pixels = 0, at_edges = 0;     // at_edges: pixels whose samples have different fragments
+    std::vector<std::uint32_t> wrong_pixels{};  // row-major, ascending
+    std::uint64_t wrong_at_edges = 0;
+    double possible = 0;  // the widest interval, in codes of the picture (floats: 1/255)
+    [[nodiscard]] bool is_right() const noexcept { return wrong_pixels.empty(); }
+};
+
+// `samples`: the fragments of every sample, all kept in memory.
+[[nodiscard]] ResolvedVerdict judge_resolved(const std::vector<std::unique_ptr<SceneFragments>>& samples,
+                                             const Colors& candidate);
+
+[[nodiscard]] std::string to_text(const ResolvedVerdict& verdict, int width);
+[[nodiscard]] std::string to_json(const ResolvedVerdict& verdict, int width);
+
+}  // namespace strata::oracle::verdict
