@@ -147,12 +147,12 @@ struct Renderer::State {
         return 2 * *deepest + 2;
     }
 
-    // A peel that keeps depths in float targets may not terminate if blending flushes them, or if depths beyond 1
-    // exist, which MAX with a cleared -1 loses; nor one that counts in its program if samples are left out after it. A
-    // correct one takes at most six passes per iteration, and one iteration per fragment of the deepest pixel.
+    // A peel that keeps depths in float targets may not terminate if blending flushes them, or if polygon offset makes
+    // depths beyond 1, which MAX with a cleared -1 loses; nor one that counts in its program if samples are left out
+    // after it. A correct one takes at most six passes per iteration, and one iteration per fragment of the deepest
+    // pixel.
     [[nodiscard]] int own_pass_limit(const Algorithm& algorithm, const Frame& f) {
-        const bool loses_depths =
-            flushes_depths(profile, options.raster) || profile.raster.depth_limits == rasterizer::DepthLimits::wrap;
+        const bool loses_depths = flushes_depths(profile, options.raster) || options.raster.polygon_offset.enabled;
         const bool may_stall = (needs(algorithm, Feature::float_targets) && loses_depths) || leaves_samples();
         if (options.max_passes > 0 || !may_stall) return options.max_passes;
         if (!deepest) deepest = static_cast<int>(deepest_pixel(*f.transparent));
