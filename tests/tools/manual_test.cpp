@@ -99,7 +99,7 @@ TEST_CASE("bash completes commands and their options and values") {
     CHECK(completed("strata rend") == "render\n");
     CHECK(completed("strata render --depth-p") == "--depth-path\n");
     CHECK(completed("strata render --depth-format d2") == "d24 d24f\n");
-    CHECK(completed("strata render --algorithm dual_") == "dual_independent\n");
+    CHECK(completed("strata render --algorithm dual_i") == "dual_independent\n");
     CHECK(completed("strata render tea") == "teapot\n");
 }
 
