@@ -9,6 +9,7 @@
 
 #include "pipeline/formats/color_rounding.h"
 #include "pipeline/formats/format.h"
+#include "rasterizer/rules/raster_state.h"
 #include "rasterizer/rules/rules.h"
 
 namespace strata::pipeline {
@@ -51,6 +52,9 @@ struct DeviceProfile {
     std::string description;
     rasterizer::RasterRules raster;
     Origin origin = Origin::upper_left;
+    // The convention of frames whose caller states none (devices.md 3.9); a RasterState has the one in effect.
+    rasterizer::ClipDepth clip_depth = rasterizer::ClipDepth::minus_one_to_one;
+    rasterizer::DepthOrder depth_order = rasterizer::DepthOrder::less;
 
     // Stages
     AlphaTestPrecision alpha_test = AlphaTestPrecision::by_target;

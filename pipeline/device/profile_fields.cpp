@@ -103,6 +103,8 @@ constexpr std::string_view opengl = "[S] OpenGL 4.5, which Mesa 22.3 implements"
 constexpr std::string_view unused = "[A] of path window_z, which this profile lacks";
 constexpr std::string_view unweighted = "[A] of 8-bit colour weights, which this profile lacks";
 constexpr std::string_view webgl = "[M] Chromium 156 answers so in WebGL 2";
+constexpr std::string_view initial = "[S] devices.md 3.9: OpenGL's initial state";
+constexpr std::string_view converted = "[A] devices.md 3.9: views are converted for Direct3D's own convention";
 constexpr std::string_view unmeasured = "[A] as geforce8_dx101";
 
 // Sources: [S] a specification, [M] measured, [A] our assumption (pipeline/reference/devices.md); then the page and
@@ -226,6 +228,8 @@ constexpr std::array fields{
                                         "[S] coverage.md 1.1: D3D 11.3 3.3.1", ours,
                                         "[M] mesa-rasterizers.md 1.1: measured under GL_UPPER_LEFT",
                                         "[M] swiftshader-rasterizer.md 1.3: either, for y_axis is clip"}),
+    choice<&Profile::clip_depth>("clip_depth", {initial, initial, ours, opengl, initial, converted}),
+    choice<&Profile::depth_order>("depth_order", {initial, initial, ours, opengl, initial, converted}),
     choice<&Profile::alpha_test>(
         "alpha_test",
         {"[M] chip-fragment.md 2: 16 of 16 pictures", "[S] fragment-stages.md 3: ARB_color_buffer_float", ours,

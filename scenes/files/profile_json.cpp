@@ -38,7 +38,9 @@ constexpr std::size_t longest_name = 64, longest_description = 1000;
 // inherits from, and omits such a field, the field gets DeviceProfile's default, which describes the earlier behaviour.
 // All other fields are required there, so that no default of the program enters a user's profile.
 constexpr std::string_view later_fields[] = {"blend_storage",
+                                             "clip_depth",
                                              "depth24",
+                                             "depth_order",
                                              "has_d24f",
                                              "has_unordered_access",
                                              "min_samples",

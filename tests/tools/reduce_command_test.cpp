@@ -14,7 +14,7 @@ void make_pack(const Folder& folder) {
             .status == 0);
 }
 
-const std::string wrong = "strata render {pack} --algorithm front_to_back --mistake one_pass_too_few -o {picture}";
+const std::string faulty = "strata render {pack} --algorithm front_to_back --mistake one_pass_too_few -o {picture}";
 
 }  // namespace
 
@@ -39,10 +39,10 @@ TEST_CASE("reduce passes a pack of any name to the command in any quotes") {
         }
     }
     // The ending is part of the picture's name, and TMPDIR part of both names.
-    CHECK(run_strata(folder, {"reduce", "pack", wrong, "--picture", ".exr;touch pwned", "-o", "none"}).status == 2);
-    CHECK(run_strata(folder, {"reduce", "pack", wrong, "--picture", "/../x.exr", "-o", "none"}).status == 2);
+    CHECK(run_strata(folder, {"reduce", "pack", faulty, "--picture", ".exr;touch pwned", "-o", "none"}).status == 2);
+    CHECK(run_strata(folder, {"reduce", "pack", faulty, "--picture", "/../x.exr", "-o", "none"}).status == 2);
     std::filesystem::create_directory(folder / "$(touch pwned)/tmp");
-    CHECK(run_strata(folder, {"reduce", "pack", wrong, "-o", "none"},
+    CHECK(run_strata(folder, {"reduce", "pack", faulty, "-o", "none"},
                      {.environment = {{"TMPDIR", folder / "$(touch pwned)/tmp"}}})
               .err ==
           "strata: TMPDIR: folder: expected a name without blanks and other characters that a shell reads, found '" +
@@ -55,7 +55,7 @@ TEST_CASE("every command of a list that reduce runs is silent and has empty inpu
     const Folder folder;
     make_pack(folder);
     const CommandResult ended = shell(folder, "echo loud | strata reduce pack 'echo loud; echo loud >&2; cat; " +
-                                                  wrong + "; echo loud >&2' -o small");
+                                                  faulty + "; echo loud >&2' -o small");
     CHECK(ended.status == 0);
     CHECK((ended.out + ended.err).find("loud") == std::string::npos);
 }
@@ -88,8 +88,8 @@ TEST_CASE("a command that hangs is killed after --timeout together with processe
     CHECK(late.err.ends_with(": end: expected exit status 0 and a picture, found no end within 0.2 s (--timeout)\n"));
     const CommandResult behind = shell(
         folder, "cat pipe > seen & TMPDIR=$PWD/tmp strata reduce pack '(exec 3>pipe; sleep 20; echo late >&3) & " +
-                    wrong + "' -o small > /dev/null; echo $?; wait; cat seen; ls tmp");
+                    faulty + "' -o small > /dev/null; echo $?; wait; cat seen; ls tmp");
     CHECK(behind.out == "0\n");
-    CHECK(run_strata(folder, {"reduce", "pack", wrong, "--timeout", "0", "-o", "none"}).err ==
+    CHECK(run_strata(folder, {"reduce", "pack", faulty, "--timeout", "0", "-o", "none"}).err ==
           "strata: --timeout: expected a number of seconds above 0, at most 86400, found '0'\n");
 }

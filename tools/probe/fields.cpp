@@ -123,7 +123,7 @@ bool can_change(std::string_view key, const Item& item) {
 
 bool is_reported(std::string_view key) {
     return key.starts_with("has_") || key.starts_with("max_") || key == "min_samples" || key == "origin" ||
-           key == "raster.equal_colors";
+           key == "clip_depth" || key == "depth_order" || key == "raster.equal_colors";
 }
 
 std::span<const Unprobed> unprobed_fields() { return unprobed; }

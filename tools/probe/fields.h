@@ -27,7 +27,8 @@ using pipeline::ProfileField;
 [[nodiscard]] bool can_change(std::string_view key, const Item& item);
 
 // Fields that no picture determines: features and limits, which the driver reports; the origin, which the client states
-// (--y); and whether equal colours are a uniform of a program, which the kit's are not.
+// (--y); the default convention of depth, which scenes of the kit do not use; and whether equal colours are a uniform
+// of a program, which the kit's are not.
 [[nodiscard]] bool is_reported(std::string_view key);
 
 // Other fields that no scene of the kit determines, with the reason.

@@ -106,6 +106,10 @@ constexpr FieldOfDevices device_table[] = {
     {"origin",
      {"upper_left", "upper_left", "upper_left", "upper_left", "upper_left", "upper_left", "upper_left", "upper_left",
       "upper_left"}},
+    {"clip_depth",
+     {"minus_one_to_one", "minus_one_to_one", "minus_one_to_one", "minus_one_to_one", "minus_one_to_one",
+      "minus_one_to_one", "minus_one_to_one", "minus_one_to_one", "minus_one_to_one"}},
+    {"depth_order", {"less", "less", "less", "less", "less", "less", "less", "less", "less"}},
     {"alpha_test",
      {"unorm8", "by_target", "by_target", "by_target", "by_target", "by_target", "by_target", "by_target",
       "by_target"}},
@@ -198,6 +202,8 @@ const std::vector<NamesOfField> choice_names{
     {"raster.texture_coordinates", {"exact_plane", "cut_weights"}},
     {"raster.perspective_coordinates", {"exact_plane", "cut_products"}},
     {"origin", {"upper_left", "lower_left"}},
+    {"clip_depth", {"minus_one_to_one", "zero_to_one"}},
+    {"depth_order", {"less", "greater"}},
     {"alpha_test", {"unorm8", "by_target"}},
     {"blend_rounding", {"nearest", "truncate", "each_product", "unrounded_source"}},
     {"blend_storage", {"target", "cached_tiles"}},
@@ -311,6 +317,8 @@ TEST_CASE("setting a choice sets the member that its key names to the enumerator
     CHECK((set("raster.texture_coordinates", "cut_weights") &&
            p.raster.interpolation.texture_coordinates == CoordinateRule::cut_weights));
     CHECK((set("origin", "lower_left") && p.origin == Origin::lower_left));
+    CHECK((set("clip_depth", "zero_to_one") && p.clip_depth == ClipDepth::zero_to_one));
+    CHECK((set("depth_order", "greater") && p.depth_order == DepthOrder::greater));
     CHECK((set("alpha_test", "unorm8") && p.alpha_test == AlphaTestPrecision::unorm8));
     CHECK((set("blend_rounding", "truncate") && p.blend_rounding == BlendRounding::truncate));
     CHECK((set("blend_storage", "cached_tiles") && p.blend_storage == BlendStorage::cached_tiles));

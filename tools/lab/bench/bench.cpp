@@ -125,7 +125,7 @@ Command add_bench(CLI::App& root) {
     add_choices(*app, options->algorithms, "--algorithm", names, values_of(names),
                 "algorithms with commas between; depth is one opaque depth pass (default all; dual with --per-effect)");
     add_profile_option(*app, options->run.profile);
-    add_machine_options(*app, options->run.render);
+    add_machine_options(*app, options->run);
     add_order_options(*app, options->run.render);
     add_view_options(*app, options->run);
     accept_tiled(*add_choices(*app, options->executions, "--execution", executions, values_of(executions),

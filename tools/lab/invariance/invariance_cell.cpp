@@ -89,7 +89,8 @@ const pipeline::View* CellRunner::own_view(const Cell& cell) {
     if (known != own_views_.end()) return &known->second;
     RunOptions pack;
     take_pack_state(pack, cell.scene);
-    const pipeline::View view = scenes::with_clip_convention(*scene(cell.scene).own_view, pack.view_convention, {});
+    const pipeline::View view = scenes::with_clip_convention(
+        *scene(cell.scene).own_view, pack.pack_convention.value_or(scenes::ClipConvention{}), {});
     return &own_views_.emplace(cell.scene, view).first->second;
 }
 

@@ -156,7 +156,7 @@ Command add_multisampling(CLI::App& root) {
         ->type_name("NAME[,NAME...]");
     add_choice(*app, options->run.samples, "--samples", sample_counts, "samples per pixel, 2, 4 or 8 (default 4)");
     add_profile_option(*app, options->run.profile);
-    add_machine_options(*app, options->run.render);
+    add_machine_options(*app, options->run);
     add_view_options(*app, options->run);
     app->add_flag("--json", options->json, "one JSON document instead of the table");
     app->footer(

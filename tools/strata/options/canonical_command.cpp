@@ -94,14 +94,13 @@ void add_comparison(Words& words, const peeling::RenderOptions& render) {
     if (offset.enabled) add(words, "--polygon-offset", fmt::format("{},{}", offset.factor, offset.units));
 }
 
-void add_machine(Words& words, const peeling::RenderOptions& render) {
+void add_machine(Words& words, const RunOptions& options) {
+    const peeling::RenderOptions& render = options.render;
     if (render.depth) add(words, "--depth-format", name_of(depth_formats, *render.depth));
     if (render.depth_path) add(words, "--depth-path", name_of(depth_paths(), *render.depth_path));
     add_comparison(words, render);
-    if (render.raster.depth_order != rasterizer::DepthOrder::less)
-        add(words, "--depth-order", name_of(depth_orders, render.raster.depth_order));
-    if (render.raster.clip_depth != rasterizer::ClipDepth::minus_one_to_one)
-        add(words, "--clip-depth", name_of(clip_depths, render.raster.clip_depth));
+    if (options.depth_order) add(words, "--depth-order", name_of(depth_orders, *options.depth_order));
+    if (options.clip_depth) add(words, "--clip-depth", name_of(clip_depths, *options.clip_depth));
     const rasterizer::RasterState& raster = render.raster;
     if (raster.depth_near != 0 || raster.depth_far != 1)
         add(words, "--depth-range", fmt::format("{},{}", raster.depth_near, raster.depth_far));
@@ -145,7 +144,7 @@ std::string canonical_command(const std::string& verb, const RunOptions& options
     if (options.origin) add(words, "--origin", name_of(origins, *options.origin));
     add_scene(words, options);
     add_view(words, options);
-    add_machine(words, options.render);
+    add_machine(words, options);
     if (options.samples != 1) add(words, "--samples", fmt::format("{}", options.samples));
     if (options.shades_pixels) add(words, "--shading", "pixel");
     if (options.interpolate == rasterizer::Interpolation::centroid) add(words, "--interpolate", "centroid");

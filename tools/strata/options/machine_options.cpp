@@ -96,7 +96,8 @@ void add_origin_option(CLI::App& app, std::optional<pipeline::Origin>& origin) {
 }
 
 // The options are declared in the order of --help.
-void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
+void add_machine_options(CLI::App& app, RunOptions& run) {
+    peeling::RenderOptions& options = run.render;
     add_choice(app, options.depth, "--depth-format", depth_formats,
                "depth buffer (default d32f, or d24 where that is missing)");
     add_choice(app, options.depth_path, "--depth-path", depth_paths(),
@@ -120,10 +121,11 @@ void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
                {"--polygon-offset", "FACTOR,UNITS", "glPolygonOffset of everything that is drawn (default: off)",
                 "two numbers such as 1,1, each from -16777216 to 16777216"},
                to_polygon_offset);
-    add_choice(app, options.raster.depth_order, "--depth-order", depth_orders,
-               "the depth test that keeps the nearer fragment; greater: reversed depth, near at 1 (default less)");
-    add_choice(app, options.raster.clip_depth, "--clip-depth", clip_depths,
-               "where z of clip space ends (default minus-one-to-one; zero-to-one: glClipControl, Direct3D)");
+    add_choice(app, run.depth_order, "--depth-order", depth_orders,
+               "the depth test that keeps the nearer fragment; greater: reversed depth, near at 1 (default: the "
+               "profile's own)");
+    add_choice(app, run.clip_depth, "--clip-depth", clip_depths,
+               "where z of clip space begins; zero-to-one: glClipControl, Direct3D (default: the profile's own)");
     add_depth_range(app, options.raster);
     add_option(
         app, options.raster.scissor,

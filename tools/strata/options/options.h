@@ -28,6 +28,8 @@ struct RunOptions {
     std::vector<const peeling::Algorithm*> algorithms;  // at least one after parsing, without repetition
     std::string profile = "geforce8";                   // a name or a file
     std::optional<pipeline::Origin> origin;             // --origin; empty: the profile's
+    std::optional<rasterizer::ClipDepth> clip_depth;    // --clip-depth, else a pack's; empty: the profile's
+    std::optional<rasterizer::DepthOrder> depth_order;  // --depth-order, likewise; open_session sets render.raster
     std::string camera;                                 // --camera; empty: the view is an orbit
     std::string files_in;  // --from: the folder of a camera's file; empty: the path is used unchanged
     std::optional<Orbit> orbit;
@@ -35,7 +37,7 @@ struct RunOptions {
         background;                      // --background: sRGB, not premultiplied; empty: the default, black or a pack's
     bool names_camera_of_scene = false;  // --camera is a camera of the scene, not a file
     bool takes_own_view = false;         // no view option is given, and the scene contains a view
-    scenes::ClipConvention view_convention;  // of the view that the scene contains
+    std::optional<scenes::ClipConvention> pack_convention;  // of the view that the scene contains, if it is a pack
     peeling::RenderOptions render;
     int samples = 1;                                                        // --samples: 1, 2, 4 or 8 a pixel
     std::optional<int> sample;                                              // --sample: the frame of this one alone
@@ -69,9 +71,9 @@ void take_scene(RunOptions& options, const std::string& scene);
 void add_execution_options(CLI::App& app, RunOptions& options);
 
 // Parts of the two functions above, for a command in which the other options take lists.
-void add_reading_options(CLI::App& app, scenes::SceneOptions& options);    // --scene, --color-space, --no-light
-void add_machine_options(CLI::App& app, peeling::RenderOptions& options);  // --depth-format ... --stochastic-seed
-void add_order_options(CLI::App& app, peeling::RenderOptions& options);    // --formulation, --sorted, --sort
+void add_reading_options(CLI::App& app, scenes::SceneOptions& options);  // --scene, --color-space, --no-light
+void add_machine_options(CLI::App& app, RunOptions& options);            // --depth-format ... --stochastic-seed
+void add_order_options(CLI::App& app, peeling::RenderOptions& options);  // --formulation, --sorted, --sort
 void add_profile_option(CLI::App& app, std::string& profile);
 void add_origin_option(CLI::App& app, std::optional<pipeline::Origin>& origin);
 void add_view_options(CLI::App& app, RunOptions& options);      // --size ... --background

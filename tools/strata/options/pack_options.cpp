@@ -12,7 +12,9 @@ void take_pack_state(RunOptions& options, const std::string& scene) {
     options.render = oracle::read_state(manifest, folder + "/manifest.json");
     options.profile = scenes::pack_profile(folder);
     options.scene_options.color_space = scenes::color_space_of(folder, manifest);
-    options.view_convention = {options.render.raster.clip_depth, options.render.raster.depth_order};
+    options.clip_depth = options.render.raster.clip_depth;
+    options.depth_order = options.render.raster.depth_order;
+    options.pack_convention = scenes::ClipConvention{*options.clip_depth, *options.depth_order};
 }
 
 }  // namespace strata::tools

@@ -83,6 +83,20 @@ void take_sample(RunOptions& options, const pipeline::DeviceProfile& profile) {
                          static_cast<std::size_t>(*options.sample));
 }
 
+// The convention of the options, else of the profile. An option that repeats the profile's is dropped, so that
+// canonical_command has one spelling, unless it overrides a pack's.
+void take_clip_convention(RunOptions& options, const pipeline::DeviceProfile& profile) {
+    rasterizer::RasterState& raster = options.render.raster;
+    raster.clip_depth = options.clip_depth.value_or(profile.clip_depth);
+    raster.depth_order = options.depth_order.value_or(profile.depth_order);
+    const scenes::ClipConvention of_profile{profile.clip_depth, profile.depth_order},
+        of_pack = options.pack_convention.value_or(of_profile);
+    if (raster.clip_depth == of_profile.clip_depth && raster.clip_depth == of_pack.clip_depth)
+        options.clip_depth.reset();
+    if (raster.depth_order == of_profile.depth_order && raster.depth_order == of_pack.depth_order)
+        options.depth_order.reset();
+}
+
 pipeline::Rgba premultiplied(const pipeline::Rgba& c) { return {c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]}; }
 
 }  // namespace
@@ -112,6 +126,7 @@ Session open_session(RunOptions& options) {
         say_warning(fmt::format("{}: nothing shows the values of {}; what depends on them is a guess", options.profile,
                                 fmt::join(open, ", ")));
     if (options.origin) session.profile = with_origin(session.profile, *options.origin);
+    take_clip_convention(options, session.profile);
     if (options.sample && options.samples > 1) take_sample(options, session.profile);
     const auto start = std::chrono::steady_clock::now();
     session.scene = scenes::load_scene(options.scene, options.scene_options);
@@ -123,7 +138,8 @@ Session open_session(RunOptions& options) {
     options.names_camera_of_scene =
         std::ranges::any_of(session.scene.cameras, [&](const auto& camera) { return camera.name == options.camera; });
     options.takes_own_view = options.camera.empty() && !options.orbit && session.scene.own_view.has_value();
-    const scenes::ClipConvention own = options.takes_own_view ? options.view_convention : scenes::ClipConvention{};
+    const scenes::ClipConvention own =
+        options.takes_own_view ? options.pack_convention.value_or(scenes::ClipConvention{}) : scenes::ClipConvention{};
     const rasterizer::RasterState& raster = options.render.raster;
     session.view =
         scenes::with_clip_convention(find_view(options, session.scene), own, {raster.clip_depth, raster.depth_order});
