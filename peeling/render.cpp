@@ -148,15 +148,19 @@ struct Renderer::State {
     }
 
     // A peel that keeps depths in float targets may not terminate if blending flushes them, or if polygon offset makes
-    // depths beyond 1, which MAX with a cleared -1 loses; nor one that counts in its program if samples are left out
-    // after it. A correct one takes at most six passes per iteration, and one iteration per fragment of the deepest
-    // pixel.
+    // depths beyond 1, which MAX with a cleared -1 loses; nor one that counts in such targets if samples are left out
+    // after its program.
+    [[nodiscard]] bool may_stall(const Algorithm& algorithm) const {
+        return needs(algorithm, Feature::float_targets) &&
+               (flushes_depths(profile, options.raster) || options.raster.polygon_offset.enabled || leaves_samples());
+    }
+
+    // A peel that terminates takes fewer: at most six passes per iteration, and one iteration per fragment of the
+    // deepest pixel. bucket_peel always takes six.
     [[nodiscard]] int own_pass_limit(const Algorithm& algorithm, const Frame& f) {
-        const bool loses_depths = flushes_depths(profile, options.raster) || options.raster.polygon_offset.enabled;
-        const bool may_stall = (needs(algorithm, Feature::float_targets) && loses_depths) || leaves_samples();
-        if (options.max_passes > 0 || !may_stall) return options.max_passes;
+        if (limits_passes() || !may_stall(algorithm)) return options.max_passes;
         if (!deepest) deepest = static_cast<int>(deepest_pixel(*f.transparent));
-        return 6 * (*deepest + 1);
+        return 6 * *deepest + 7;
     }
 
     [[nodiscard]] Frame frame(const Algorithm& algorithm) {
@@ -277,7 +281,7 @@ struct Renderer::State {
         note_path(algorithm, instruments, result.frame.work);
         result.seconds.audit = result.frame.watched * result.seconds.passes;
         result.seconds.passes -= result.seconds.audit;
-        if (!algorithm.compares_own_codes || leaves_samples()) note_endless(f, options, result.frame);
+        if (!algorithm.compares_own_codes || may_stall(algorithm)) note_endless(algorithm, f, options, result.frame);
         if (!audit) return;
         const Stopwatch stopwatch{result.seconds.audit};
         result.audit = audit->finish(result.frame);

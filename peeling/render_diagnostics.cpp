@@ -61,11 +61,12 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
         note(Fault::early_end, audit.misordered, "every back layer of a pass had alpha 0 while layers were left (E14)");
 }
 
-void note_endless(const Frame& frame, const RenderOptions& options, FrameResult& result) {
+void note_endless(const Algorithm& algorithm, const Frame& frame, const RenderOptions& options, FrameResult& result) {
     if (options.max_passes > 0 || frame.max_passes == 0 || result.passes.geometry < frame.max_passes) return;
     const std::string why =
         options.raster.sample_coverage != rasterizer::SampleCoverage{}
             ? "the program counts fragments of samples that are left out"
+        : algorithm.compares_own_codes ? "a float target loses depths beyond 1 and flushes the smallest ones"
         : !frame.quantize_reference
             ? "the compared depth is not rounded like the stored one, so a fragment lies behind itself"
             : "some fragments' compared depth lies behind the depth that they stored themselves";

@@ -33,7 +33,8 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
                            const AuditResult& audit, std::vector<pipeline::Diagnostic>& all);
 
 // A limit set by the user is no fault, even if the peel reaches it (keys-and-counts.md 3.4).
-void note_endless(const pipeline::Frame& frame, const RenderOptions& options, pipeline::FrameResult& result);
+void note_endless(const Algorithm& algorithm, const pipeline::Frame& frame, const RenderOptions& options,
+                  pipeline::FrameResult& result);
 
 // Reports triangles that set-up dropped.
 void note_set_up(const rasterizer::SetupCounters& counters, std::vector<pipeline::Diagnostic>& all);
