@@ -2,9 +2,8 @@
 // each fragment by the transmittance in front of it that the moments imply. Muenstermann et al. 2018, "Moment-Based
 // Order-Independent Transparency", sections 3 and 4; peeling/reference/algorithms.md 22.
 //
-// Needs      binary32 additive blending, up to three render targets. moments_quantized: STRATA_ordered_rmw, because a
-// sum
-//            of transformed 16-bit moments is not a blend.
+// Needs      binary32 additive blending, up to three render targets. moments_quantized: STRATA_ordered_rmw, because no
+//            blend adds transformed 16-bit moments.
 // Passes     2. An approximation: the transmittance of all fragments together is exact except for rounding, its
 //            distribution over depth is reconstructed from the moments.
 // Invariant  with the absorbance A = -log(1 - a) and z = 2 d - 1, where d is the window depth: after pass 1, total =

@@ -1,10 +1,9 @@
 // peeling/programs/fixed_passes/moment_quantization.h - power moments of a distribution in 16 bits each: a linear
 // transform that spreads them over [0, 1], and rounding to k / 65535. Used by the algorithm moments_quantized.
 //
-// Rule     Odd and even moments are transformed separately: stored[r] = offset[r] + sum over c of matrix[r][c] b[c],
-// each
-//          operation rounded to binary32, from the left. They are normalized, so that a fragment is added by the share
-//          that its absorbance has of the new total.
+// Rule     Odd and even moments are transformed separately: stored[r] = offset[r] + sum over c of matrix[r][c] b[c].
+//          Each operation is rounded to binary32, from the left. They are normalized, so that a fragment is added by
+//          the share that its absorbance has of the new total.
 // Source   peeling/reference/algorithms.md 22.2; Muenstermann et al. 2018, section 3.4, and the shaders that accompany
 //          it. Both directions are the published matrices: their product is the identity within 1e-5.
 // Tests    tests/peeling/algorithms/moments_quantized_test.cpp
