@@ -7,6 +7,7 @@
 #include "peeling/audit/audit.h"
 #include "peeling/audit/region_trace.h"
 #include "peeling/check_options.h"
+#include "peeling/pass_limit.h"
 #include "peeling/prepared_lists.h"
 #include "peeling/raster_state.h"
 #include "peeling/registry.h"
@@ -58,20 +59,16 @@ struct Renderer::State {
     std::optional<int> deepest{};                   // fragments of the deepest pixel, once computed
     bool was_invariant = true;                      // of the last frame that ran
 
-    // True if the user's options limit the number of passes.
-    [[nodiscard]] bool limits_passes() const {
-        return options.max_passes > 0 || options.termination.rule == TerminationRule::fixed;
-    }
-
     [[nodiscard]] Execution execution(const Algorithm& algorithm, const Instruments& instruments) const {
         // A tile that stops early does not know how many passes the others make in the loops that it left, unless every
         // answer depends on its own count; and a log of passes lists them all.
         const bool is_open =
             options.termination.rule == TerminationRule::ratio || options.termination.rule == TerminationRule::fixed;
-        const bool counts_across = algorithm.runs_loops && ((limits_passes() && is_open) || instruments.log_passes);
+        const bool counts_across =
+            algorithm.runs_loops && ((limits_passes(options) && is_open) || instruments.log_passes);
         const bool counts_nodes = algorithm.shares_nodes && options.algorithm.frame_nodes > 0;
         const bool is_group = instruments.samples.group != nullptr;
-        return algorithm.whole_frame || leaves_samples() || counts_across || counts_nodes || options.counters ||
+        return algorithm.whole_frame || leaves_samples(options) || counts_across || counts_nodes || options.counters ||
                        is_group
                    ? Execution::literal
                    : options.execution;
@@ -83,7 +80,7 @@ struct Renderer::State {
         if (work.path != Path::literal) return;
         if (instruments.samples.group != nullptr)
             work.why = "loads of another sample need all samples step by step";
-        else if (leaves_samples())
+        else if (leaves_samples(options))
             work.why = "sample coverage and alpha to coverage are applied in every pass";
         else if (options.counters)
             work.why = "--counters counts in literal execution";
@@ -129,40 +126,6 @@ struct Renderer::State {
                 .bytes_per_fragment = TileFragments::bytes_of(needs) + sorted_bytes};
     }
 
-    // A correct peel needs one pass per fragment of the deepest pixel, and one more. If the compared depth is not the
-    // stored one, or other vertices are drawn, it may never end; twice as many passes show that. A replaced depth is
-    // the quotient that is compared: that peel ends, and the number of triangles bounds its passes.
-    [[nodiscard]] int pass_limit(const Frame& f) {
-        if (limits_passes() || f.is_invariant()) return options.max_passes;
-        constexpr std::size_t most = 1u << 30;
-        if (f.second == nullptr && f.depth_compare().compares_codes() &&
-            f.depth.path == rasterizer::DepthPath::depth_replace &&
-            f.depth.reference == rasterizer::DepthPath::perspective_rq)
-            return static_cast<int>(2 * std::min(f.transparent->geometry.triangles.size(), most - 1) + 2);
-        return double_limit(f);
-    }
-
-    [[nodiscard]] int double_limit(const Frame& f) {
-        if (!deepest) deepest = static_cast<int>(deepest_pixel(*f.transparent));
-        return 2 * *deepest + 2;
-    }
-
-    // A peel that keeps depths in float targets may not terminate if blending flushes them, or if polygon offset makes
-    // depths beyond 1, which MAX with a cleared -1 loses; nor one that counts in such targets if samples are left out
-    // after its program.
-    [[nodiscard]] bool may_stall(const Algorithm& algorithm) const {
-        return needs(algorithm, Feature::float_targets) &&
-               (flushes_depths(profile, options.raster) || options.raster.polygon_offset.enabled || leaves_samples());
-    }
-
-    // A peel that terminates takes fewer: at most six passes per iteration, and one iteration per fragment of the
-    // deepest pixel. bucket_peel always takes six.
-    [[nodiscard]] int own_pass_limit(const Algorithm& algorithm, const Frame& f) {
-        if (limits_passes() || !may_stall(algorithm)) return options.max_passes;
-        if (!deepest) deepest = static_cast<int>(deepest_pixel(*f.transparent));
-        return 6 * *deepest + 7;
-    }
-
     [[nodiscard]] Frame frame(const Algorithm& algorithm) {
         Frame f;
         f.profile = &profile;
@@ -197,7 +160,7 @@ struct Renderer::State {
         f.checks_targets =
             algorithm.body || (algorithm.run_with != nullptr && needs(algorithm, Feature::float_targets));
         f.nearest_depth = options.nearest_depth;
-        f.max_passes = algorithm.compares_own_codes ? own_pass_limit(algorithm, f) : pass_limit(f);
+        f.max_passes = pass_limit(algorithm, options, f, deepest);
         f.average_count = options.average_count;
         return f;
     }
@@ -244,10 +207,6 @@ struct Renderer::State {
         return options.raster.interpolation != rasterizer::Interpolation::sample;
     }
 
-    [[nodiscard]] bool leaves_samples() const noexcept {
-        return options.raster.sample_coverage != rasterizer::SampleCoverage{};
-    }
-
     [[nodiscard]] AsShown shown() const noexcept { return {options, profile}; }
 
     // The options imply that every pass of a peel sees the same fragments and compares the depth that it stores.
@@ -261,7 +220,7 @@ struct Renderer::State {
                    const Instruments& instruments, std::vector<RegionTrace>* traces, RenderResult& result) {
         Frame f = frame(algorithm);
         was_invariant = f.is_invariant();
-        if (instruments.samples.group != nullptr && !limits_passes()) f.max_passes = double_limit(f);
+        if (instruments.samples.group != nullptr && !limits_passes(options)) f.max_passes = double_limit(f, deepest);
         if (traces != nullptr) {
             f.trace = true;
             f.trace_bytes = ~std::uint64_t{0};
@@ -281,7 +240,8 @@ struct Renderer::State {
         note_path(algorithm, instruments, result.frame.work);
         result.seconds.audit = result.frame.watched * result.seconds.passes;
         result.seconds.passes -= result.seconds.audit;
-        if (!algorithm.compares_own_codes || may_stall(algorithm)) note_endless(algorithm, f, options, result.frame);
+        if (!algorithm.compares_own_codes || may_stall(algorithm, profile, options))
+            note_endless(algorithm, f, options, result.frame);
         if (!audit) return;
         const Stopwatch stopwatch{result.seconds.audit};
         result.audit = audit->finish(result.frame);

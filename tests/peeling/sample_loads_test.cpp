@@ -112,37 +112,45 @@ template <class Value>
     return sequences;
 }
 
-}  // namespace
-
-TEST_CASE("front to back under every load rule composites at each sample what a model of its fragments does") {
-    const TriangleScene scene = random_triangles(4501, 30);
+// Calls check(options, rule, results, traces) for each shading and load rule.
+template <class Check>
+void for_each_rule(const TriangleScene& scene, const char* algorithm, const Check& check) {
     for (const Interpolation interpolation : {Interpolation::sample, Interpolation::centre, Interpolation::centroid}) {
         const RenderOptions options = model_options(interpolation);
-        const std::vector<ModelPixel> pixels = model_pixels(scene, options);
         for (const LoadedSample rule : {LoadedSample::own, LoadedSample::zero, LoadedSample::resolved}) {
             SampledRenderer renderer{
                 scene.list, scene.view, *find_profile("geforce8_dx101"), options, {.samples = 4, .loads = rule}};
             std::vector<std::vector<RegionTrace>> traces;
-            const auto results = renderer.render_traced(*find_algorithm("front_to_back"), traces);
+            const auto results = renderer.render_traced(*find_algorithm(algorithm), traces);
             REQUIRE(results.size() == model_samples);
-            const std::vector<Sequences> drawn = traced(traces);
-            std::uint64_t wrong = 0, composited = 0, unlike = 0;
-            for (std::size_t p = 0; p < pixels.size(); ++p) {
-                const Sequences right = peeled_front_to_back(pixels[p], LoadedSample::own, 40);
-                for (std::size_t s = 0; s < model_samples; ++s) {
-                    const int passes = results[s].frame.passes.geometry;
-                    const auto model = peeled_front_to_back(pixels[p], rule, passes)[s];
-                    wrong += model == drawn[p][s] ? 0 : 1;
-                    composited += model.size();
-                    unlike += model == right[s] ? 0 : 1;
-                }
-            }
-            INFO(static_cast<int>(interpolation) << ' ' << static_cast<int>(rule) << ' ' << composited);
-            CHECK(wrong == 0);
-            CHECK(composited > 1000);
-            if (rule != LoadedSample::own) CHECK(unlike > 100);
+            INFO(static_cast<int>(interpolation) << ' ' << static_cast<int>(rule));
+            check(options, rule, results, traces);
         }
     }
+}
+
+}  // namespace
+
+TEST_CASE("front to back under every load rule composites at each sample what a model of its fragments does") {
+    const TriangleScene scene = random_triangles(4501, 30);
+    for_each_rule(scene, "front_to_back", [&](const auto& options, auto rule, const auto& results, const auto& traces) {
+        const std::vector<ModelPixel> pixels = model_pixels(scene, options);
+        const std::vector<Sequences> drawn = traced(traces);
+        std::uint64_t wrong = 0, composited = 0, unlike = 0;
+        for (std::size_t p = 0; p < pixels.size(); ++p) {
+            const Sequences right = peeled_front_to_back(pixels[p], LoadedSample::own, 40);
+            for (std::size_t s = 0; s < model_samples; ++s) {
+                const int passes = results[s].frame.passes.geometry;
+                const auto model = peeled_front_to_back(pixels[p], rule, passes)[s];
+                wrong += model == drawn[p][s] ? 0 : 1;
+                composited += model.size();
+                unlike += model == right[s] ? 0 : 1;
+            }
+        }
+        CHECK(wrong == 0);
+        CHECK(composited > 1000);
+        if (rule != LoadedSample::own) CHECK(unlike > 100);
+    });
 }
 
 namespace {
@@ -220,30 +228,22 @@ struct DualSequences {
 
 TEST_CASE("dual under every load rule composites at both ends what a model of its fragments does") {
     const TriangleScene scene = random_triangles(4502, 30);
-    for (const Interpolation interpolation : {Interpolation::sample, Interpolation::centre, Interpolation::centroid}) {
-        RenderOptions options = model_options(interpolation);
+    const auto check = [&](const auto& options, auto rule, const auto& results, const auto& traces) {
         const std::vector<DualPixel> pixels = dual_pixels(scene, options);
-        for (const LoadedSample rule : {LoadedSample::own, LoadedSample::zero, LoadedSample::resolved}) {
-            SampledRenderer renderer{
-                scene.list, scene.view, *find_profile("geforce8_dx101"), options, {.samples = 4, .loads = rule}};
-            std::vector<std::vector<RegionTrace>> traces;
-            const auto results = renderer.render_traced(*find_algorithm("dual_independent"), traces);
-            REQUIRE(results.size() == model_samples);
-            const std::vector<DualSequences> drawn = traced_ends(traces);
-            std::uint64_t wrong = 0, composited = 0, unlike = 0;
-            for (std::size_t p = 0; p < pixels.size(); ++p) {
-                const DualSequences right = peeled_dual(pixels[p], LoadedSample::own, 40);
-                for (std::size_t s = 0; s < model_samples; ++s) {
-                    const DualSequences model = peeled_dual(pixels[p], rule, results[s].frame.passes.geometry);
-                    wrong += model.front[s] == drawn[p].front[s] && model.back[s] == drawn[p].back[s] ? 0 : 1;
-                    composited += model.front[s].size() + model.back[s].size();
-                    unlike += model.front[s] == right.front[s] && model.back[s] == right.back[s] ? 0 : 1;
-                }
+        const std::vector<DualSequences> drawn = traced_ends(traces);
+        std::uint64_t wrong = 0, composited = 0, unlike = 0;
+        for (std::size_t p = 0; p < pixels.size(); ++p) {
+            const DualSequences right = peeled_dual(pixels[p], LoadedSample::own, 40);
+            for (std::size_t s = 0; s < model_samples; ++s) {
+                const DualSequences model = peeled_dual(pixels[p], rule, results[s].frame.passes.geometry);
+                wrong += model.front[s] == drawn[p].front[s] && model.back[s] == drawn[p].back[s] ? 0 : 1;
+                composited += model.front[s].size() + model.back[s].size();
+                unlike += model.front[s] == right.front[s] && model.back[s] == right.back[s] ? 0 : 1;
             }
-            INFO(static_cast<int>(interpolation) << ' ' << static_cast<int>(rule) << ' ' << composited);
-            CHECK(wrong == 0);
-            if (rule != LoadedSample::resolved) CHECK(composited > 500);  // a mean is at no fragment, if all differ
-            if (rule != LoadedSample::own) CHECK(unlike > 100);
         }
-    }
+        CHECK(wrong == 0);
+        if (rule != LoadedSample::resolved) CHECK(composited > 500);  // a mean is at no fragment, if all differ
+        if (rule != LoadedSample::own) CHECK(unlike > 100);
+    };
+    for_each_rule(scene, "dual_independent", check);
 }

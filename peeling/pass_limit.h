@@ -1,0 +1,32 @@
+// peeling/pass_limit.h - the number of geometry passes after which a peel that may never end is stopped.
+//
+// Rule     --max-passes and fixed:N replace it. 0: no limit.
+// Source   peeling/reference/keys-and-counts.md 3.4
+// Tests    tests/peeling/sample_coverage_test.cpp, tests/fuzz
+#pragma once
+#include <optional>
+
+#include "peeling/algorithms/algorithm.h"
+#include "peeling/render_options.h"
+#include "pipeline/frame/frame.h"
+
+namespace strata::peeling {
+
+// True if the user's options limit the number of passes.
+[[nodiscard]] bool limits_passes(const RenderOptions& options) noexcept;
+
+// True if sample coverage, alpha to coverage or a mask may leave samples out.
+[[nodiscard]] bool leaves_samples(const RenderOptions& options) noexcept;
+
+// A peel that keeps depths in float targets may not terminate if blending flushes them, or if polygon offset makes
+// depths beyond 1, which MAX with a cleared -1 loses; nor one that counts in such targets if samples are left out after
+// its program.
+[[nodiscard]] bool may_stall(const Algorithm& algorithm, const pipeline::DeviceProfile& profile,
+                             const RenderOptions& options);
+
+// `deepest`: the number of fragments of the frame's deepest pixel, which is computed where it is empty and needed.
+[[nodiscard]] int double_limit(const pipeline::Frame& frame, std::optional<int>& deepest);
+[[nodiscard]] int pass_limit(const Algorithm& algorithm, const RenderOptions& options, const pipeline::Frame& frame,
+                             std::optional<int>& deepest);
+
+}  // namespace strata::peeling
