@@ -51,7 +51,7 @@ void count_ties(const Peel& p) {
             const float number = number_of(in, i);
             const bool has_both = near == far, is_far_open = is_open(loads.color(2), i);
             const bool is_near = z == near && !(has_both && is_far_open), is_far = z == far && !(has_both && is_near);
-            const bool sees = is_visible(in, i, loads.depth(3));
+            const bool sees = is_visible(in, i, loads.depth(3)) && near <= far;  // none left: 1 and -1
             write_number(out.color[0], i, sees && is_near && is_left(loads.color(1), i, number), number);
             write_number(out.color[1], i, sees && is_far && is_left(loads.color(2), i, number), number);
         }
@@ -71,7 +71,7 @@ void take_four(Peel& p) {
     static_cast<void>(p.region.draw(state, [&p](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
             const float z = in.shader_z[i], ends[2]{0.0f - loads.color(0)[0][i], loads.color(0)[1][i]};
-            const bool sees = is_visible(in, i, loads.depth(3));
+            const bool sees = is_visible(in, i, loads.depth(3)) && ends[0] <= ends[1];
             bool is_next = sees && z > ends[0] && z < ends[1];
             for (const std::size_t e : {0u, 1u}) {
                 const ColorLanes& ties = loads.color(static_cast<int>(1 + e));
