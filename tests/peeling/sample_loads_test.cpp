@@ -99,16 +99,23 @@ template <class Value>
     return sequences;
 }
 
-[[nodiscard]] std::vector<Sequences> traced(const std::vector<std::vector<RegionTrace>>& traces) {
-    std::vector<Sequences> sequences(model_size * model_size);
+// Calls visit(pixel, sample, entry) for every composited fragment.
+template <class Visit>
+void for_each_entry(const std::vector<std::vector<RegionTrace>>& traces, const Visit& visit) {
     for (std::size_t s = 0; s < traces.size(); ++s)
         for (const RegionTrace& region : traces[s])
             for (const auto& entry : region.entries) {
                 const auto width = static_cast<std::uint32_t>(region.rect.width());
                 const auto x = static_cast<std::uint32_t>(region.rect.x0) + entry.pixel % width;
                 const auto y = static_cast<std::uint32_t>(region.rect.y0) + entry.pixel / width;
-                sequences[y * model_size + x][s].push_back(entry.key);
+                visit(y * model_size + x, s, entry);
             }
+}
+
+[[nodiscard]] std::vector<Sequences> traced(const std::vector<std::vector<RegionTrace>>& traces) {
+    std::vector<Sequences> sequences(model_size * model_size);
+    for_each_entry(
+        traces, [&](std::size_t pixel, std::size_t s, const auto& entry) { sequences[pixel][s].push_back(entry.key); });
     return sequences;
 }
 
@@ -212,15 +219,10 @@ struct DualSequences {
 
 [[nodiscard]] std::vector<DualSequences> traced_ends(const std::vector<std::vector<RegionTrace>>& traces) {
     std::vector<DualSequences> sequences(model_size * model_size);
-    for (std::size_t s = 0; s < traces.size(); ++s)
-        for (const RegionTrace& region : traces[s])
-            for (const auto& entry : region.entries) {
-                const auto width = static_cast<std::uint32_t>(region.rect.width());
-                const auto x = static_cast<std::uint32_t>(region.rect.x0) + entry.pixel % width;
-                const auto y = static_cast<std::uint32_t>(region.rect.y0) + entry.pixel / width;
-                DualSequences& at = sequences[y * model_size + x];
-                (entry.side == strata::pipeline::Side::front ? at.front : at.back)[s].push_back(entry.key);
-            }
+    for_each_entry(traces, [&](std::size_t pixel, std::size_t s, const auto& entry) {
+        DualSequences& at = sequences[pixel];
+        (entry.side == strata::pipeline::Side::front ? at.front : at.back)[s].push_back(entry.key);
+    });
     return sequences;
 }
 

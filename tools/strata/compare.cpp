@@ -58,8 +58,8 @@ const peeling::Algorithm* algorithm_of(const CompareOptions& options) {
 }
 
 // A verdict is about layers in depth order, which a right port of an approximate algorithm does not composite. Its
-// picture is compared with the algorithm's own.
-bool is_approximate(const CompareOptions& options) {
+// picture is compared with the algorithm's own, and a note says so.
+bool takes_own_picture(const CompareOptions& options) {
     const peeling::Algorithm* algorithm = algorithm_of(options);
     if (algorithm == nullptr || algorithm->exact) return false;
     say_note("strata: note: " + algorithm->name +
@@ -179,7 +179,7 @@ int compare(const CompareOptions& options) {
                    {"--report", options.report, {".html"}}});
     if (scenes::is_pack(options.reference) && std::filesystem::is_directory(options.candidate))
         return compare_folders(options);
-    const bool is_verdict = asks_for_verdict(options) && !is_approximate(options);
+    const bool is_verdict = asks_for_verdict(options) && !takes_own_picture(options);
     check_samples(options, is_verdict);
     if (is_verdict) {
         check_without_files(options);
