@@ -2,34 +2,16 @@
 // moments, lists, tails, samples and buckets (peeling/reference/algorithms.md 18 to 24).
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <unordered_map>
 
 #include "peeling/programs/fixed_passes/weighted.h"
-#include "tools/oracle/mistakes/catalogue.h"
+#include "tools/oracle/mistakes/program_change.h"
 
 namespace strata::oracle {
 
 namespace {
 
 using namespace pipeline;
-
-bool is_run_by(const Experiment& e, std::initializer_list<std::string_view> algorithms) {
-    return std::ranges::find(algorithms, e.algorithm->name) != algorithms.end();
-}
-
-std::size_t lanes_of_call(const ProgramCall& call) { return static_cast<std::size_t>(call.in.count); }
-
-// Calls change(call) after the programs of passes of this kind whose first target has this name.
-template <class Change>
-bool behind_pass_of(Experiment& e, pipeline::PassKind kind, const char* target, Change change) {
-    e.alterations.push_back(
-        {.program = [names = e.names, kind, target, change](const ProgramCall& call, const std::function<void()>& run) {
-            run();
-            if (call.kind == kind && names->is(call.state.color[0], target)) change(call);
-        }});
-    return true;
-}
 
 // Programs of geometry passes read depth(d) in place of a window depth d; tests and stored depths are not changed.
 bool with_depths(Experiment& e, float (*depth)(float)) {

@@ -7,7 +7,7 @@
 
 #include "peeling/programs/depth_float.h"
 #include "peeling/programs/fixed_passes/node_depths.h"
-#include "tools/oracle/mistakes/catalogue.h"
+#include "tools/oracle/mistakes/program_change.h"
 
 namespace strata::oracle {
 
@@ -15,25 +15,12 @@ namespace {
 
 using namespace pipeline;
 
-bool is_by(const Experiment& e, std::string_view algorithm) { return e.algorithm->name == algorithm; }
 rasterizer::DepthFormat depth_format_of(const Experiment& e) { return e.profile.depth_buffer(e.options.depth); }
-std::size_t lanes_in(const ProgramCall& call) { return static_cast<std::size_t>(call.in.count); }
-
-// Calls change(call) after the programs of geometry passes whose first target has this name.
-template <class Change>
-bool behind_geometry_pass(Experiment& e, const char* target, Change change) {
-    e.alterations.push_back(
-        {.program = [names = e.names, target, change](const ProgramCall& call, const std::function<void()>& run) {
-            run();
-            if (call.kind == pipeline::PassKind::geometry && names->is(call.state.color[0], target)) change(call);
-        }});
-    return true;
-}
 
 // peridyno #93: the list is cut from its head, where the last submitted fragment is.
 bool keeps_last_8(Experiment& e) {
     peeling::AlgorithmOptions& options = e.options.algorithm;
-    if (!is_by(e, "linked_list") || (options.pixel_nodes > 0 && options.pixel_nodes <= 8)) return false;
+    if (!is_run_by(e, {"linked_list"}) || (options.pixel_nodes > 0 && options.pixel_nodes <= 8)) return false;
     options.pixel_nodes = 8;
     options.overflow = peeling::Overflow::drop_new;
     return find_mistake("order_reversed")->make(e);
@@ -41,11 +28,11 @@ bool keeps_last_8(Experiment& e) {
 
 // peridyno #93: `if (depth == previous) continue;` in the loop that composites the sorted list.
 bool skips_equal_depths(Experiment& e) {
-    if (!is_by(e, "linked_list")) return false;
+    if (!is_run_by(e, {"linked_list"})) return false;
     const auto seen = std::make_shared<std::unordered_set<std::uint64_t>>();
     e.alterations.push_back({.program = [seen](const ProgramCall& call, const std::function<void()>& run) {
         if (call.kind == pipeline::PassKind::geometry)
-            for (std::size_t i = 0; i < lanes_in(call); ++i)
+            for (std::size_t i = 0; i < lanes_of_call(call); ++i)
                 if (call.out.alive[i] != 0 &&
                     !seen->insert(std::uint64_t{call.in.pixel[i]} << 32 | call.in.code[i]).second)
                     call.out.alive[i] = 0;
@@ -56,17 +43,17 @@ bool skips_equal_depths(Experiment& e) {
 
 // Cesium #2441 and others: colours that are not multiplied by alpha before they are weighted.
 bool sums_straight_colors(Experiment& e) {
-    if (!is_by(e, "weighted_blended")) return false;
-    return behind_geometry_pass(e, "sums", [](const ProgramCall& call) {
+    if (!is_run_by(e, {"weighted_blended"})) return false;
+    return behind_pass_of(e, pipeline::PassKind::geometry, "sums", [](const ProgramCall& call) {
         for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t i = 0; i < lanes_in(call); ++i)
+            for (std::size_t i = 0; i < lanes_of_call(call); ++i)
                 if (call.in.color[3][i] > 0) call.out.color[0][c][i] /= call.in.color[3][i];
     });
 }
 
 // WebGL without OES_draw_buffers_indexed: blending is enabled for the first target alone.
 bool replaces_revealage(Experiment& e) {
-    if (!is_by(e, "weighted_blended")) return false;
+    if (!is_run_by(e, {"weighted_blended"})) return false;
     e.alterations.push_back({.pass = [names = e.names](Region&, PassState& state, pipeline::PassKind kind) {
         if (kind == pipeline::PassKind::geometry && names->is(state.color[1], "revealage")) state.blend[1] = Blend{};
     }});
@@ -75,27 +62,28 @@ bool replaces_revealage(Experiment& e) {
 
 // candlewick, pull request 110: the weight is missing in the sum of alphas, which then does not divide it out.
 bool sums_plain_alphas(Experiment& e) {
-    if (!is_by(e, "weighted_blended")) return false;
-    return behind_geometry_pass(e, "sums", [](const ProgramCall& call) { call.out.color[0][3] = call.in.color[3]; });
+    if (!is_run_by(e, {"weighted_blended"})) return false;
+    return behind_pass_of(e, pipeline::PassKind::geometry, "sums",
+                          [](const ProgramCall& call) { call.out.color[0][3] = call.in.color[3]; });
 }
 
 // The weighted alpha is written to both targets.
 bool weighs_revealage(Experiment& e) {
-    if (!is_by(e, "weighted_blended")) return false;
-    return behind_geometry_pass(e, "sums", [](const ProgramCall& call) {
+    if (!is_run_by(e, {"weighted_blended"})) return false;
+    return behind_pass_of(e, pipeline::PassKind::geometry, "sums", [](const ProgramCall& call) {
         for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t i = 0; i < lanes_in(call); ++i)
+            for (std::size_t i = 0; i < lanes_of_call(call); ++i)
                 call.out.color[1][c][i] = std::min(call.out.color[0][3][i], 1.0f);
     });
 }
 
 // Moments are built from depths from -1 to 1 and read at depths from 0 to 1.
 bool reads_moments_at_window_depth(Experiment& e) {
-    if (!is_by(e, "moments") || e.options.raster.depth_order == rasterizer::DepthOrder::greater) return false;
+    if (!is_run_by(e, {"moments"}) || e.options.raster.depth_order == rasterizer::DepthOrder::greater) return false;
     e.alterations.push_back({.program = [names = e.names](const ProgramCall& call, const std::function<void()>& run) {
         if (call.kind != pipeline::PassKind::geometry || !names->is(call.state.color[0], "sums")) return run();
         const Lanes<float> own = call.in.shader_z;
-        for (std::size_t i = 0; i < lanes_in(call); ++i) call.in.shader_z[i] = (own[i] + 1.0f) / 2.0f;
+        for (std::size_t i = 0; i < lanes_of_call(call); ++i) call.in.shader_z[i] = (own[i] + 1.0f) / 2.0f;
         run();
         call.in.shader_z = own;
     }});
@@ -104,14 +92,14 @@ bool reads_moments_at_window_depth(Experiment& e) {
 
 // The last quad blends the front, which is premultiplied, by its coverage.
 bool multiplies_front_again(Experiment& e) {
-    const bool covers = is_by(e, "dual");
-    if (!covers && !is_by(e, "front_to_back")) return false;
+    const bool covers = is_run_by(e, {"dual"});
+    if (!covers && !is_run_by(e, {"front_to_back"})) return false;
     e.alterations.push_back(
         {.program = [names = e.names, covers](const ProgramCall& call, const std::function<void()>& run) {
             run();
             if (call.kind != pipeline::PassKind::full_screen || !names->is(call.state.color[0], "result")) return;
             const ColorLanes& front = call.loads.color(0);
-            for (std::size_t i = 0; i < lanes_in(call); ++i) {
+            for (std::size_t i = 0; i < lanes_of_call(call); ++i) {
                 const float through = covers ? 1.0f - front[3][i] : front[3][i];
                 for (std::size_t c = 0; c < 3; ++c) call.out.color[0][c][i] -= front[c][i] * through;
             }
@@ -122,22 +110,23 @@ bool multiplies_front_again(Experiment& e) {
 // Alpha to coverage in place of a mask by chance: fragments of one alpha cover the same samples (Enderton et al. 2010,
 // section 3).
 bool masks_by_alpha(Experiment& e) {
-    if (!is_by(e, "stochastic")) return false;
+    if (!is_run_by(e, {"stochastic"})) return false;
     const int samples = e.options.algorithm.stochastic_samples;
-    return behind_geometry_pass(e, "samples", [samples, format = depth_format_of(e)](const ProgramCall& call) {
-        for (std::size_t i = 0; i < lanes_in(call); ++i) {
-            const int covered = static_cast<int>(call.in.color[3][i] * static_cast<float>(samples) + 0.5f);
-            for (std::size_t s = 0; s < static_cast<std::size_t>(samples); ++s)
-                call.out.color[s / 4][s % 4][i] = static_cast<int>(s) < covered
-                                                      ? 0.0f - peeling::depth_as_float(call.in.code[i], format)
-                                                      : -peeling::no_node;
-        }
-    });
+    return behind_pass_of(
+        e, pipeline::PassKind::geometry, "samples", [samples, format = depth_format_of(e)](const ProgramCall& call) {
+            for (std::size_t i = 0; i < lanes_of_call(call); ++i) {
+                const int covered = static_cast<int>(call.in.color[3][i] * static_cast<float>(samples) + 0.5f);
+                for (std::size_t s = 0; s < static_cast<std::size_t>(samples); ++s)
+                    call.out.color[s / 4][s % 4][i] = static_cast<int>(s) < covered
+                                                          ? 0.0f - peeling::depth_as_float(call.in.code[i], format)
+                                                          : -peeling::no_node;
+            }
+        });
 }
 
 // vkQuake #925: a fragment is seen through all of its own absorbance, or through none.
 bool overestimates(Experiment& e, float share) {
-    if (!is_by(e, "moments") || e.options.algorithm.overestimation == share) return false;
+    if (!is_run_by(e, {"moments"}) || e.options.algorithm.overestimation == share) return false;
     e.options.algorithm.overestimation = share;
     return true;
 }
@@ -167,16 +156,18 @@ void insert_without_merging(const ProgramCall& call, std::size_t count, rasteriz
 }
 
 bool drops_what_does_not_fit(Experiment& e) {
-    if (!is_by(e, "multi_layer")) return false;
+    if (!is_run_by(e, {"multi_layer"})) return false;
     const auto count = static_cast<std::size_t>(e.options.algorithm.nodes);
-    return behind_geometry_pass(e, "depths", [count, format = depth_format_of(e)](const ProgramCall& call) {
-        for (std::size_t i = 0; i < lanes_in(call); ++i) insert_without_merging(call, count, format, i);
-    });
+    return behind_pass_of(e, pipeline::PassKind::geometry, "depths",
+                          [count, format = depth_format_of(e)](const ProgramCall& call) {
+                              for (std::size_t i = 0; i < lanes_of_call(call); ++i)
+                                  insert_without_merging(call, count, format, i);
+                          });
 }
 
 // A bucket's second layer, its far end, is not composited: the loop over layers steps by two.
 bool loses_far_ends(Experiment& e) {
-    if (!is_by(e, "bucket_peel")) return false;
+    if (!is_run_by(e, {"bucket_peel"})) return false;
     const auto number = std::make_shared<std::uint64_t>(0);
     e.alterations.push_back({.pass = [names = e.names, number](Region&, PassState& state, pipeline::PassKind kind) {
         if (kind == pipeline::PassKind::full_screen && names->is(state.reads[0], "layer") && (*number)++ % 2 == 1)
