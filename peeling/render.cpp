@@ -79,7 +79,7 @@ struct Renderer::State {
         if (work.path == Path::tiled && !algorithm.draws_again()) work.why.clear();
         if (work.path != Path::literal) return;
         if (instruments.samples.group != nullptr)
-            work.why = "loads of another sample need all samples step by step";
+            work.why = "loads of another sample, or instruments, need all samples step by step";
         else if (leaves_samples(options))
             work.why = "sample coverage and alpha to coverage are applied in every pass";
         else if (options.counters)

@@ -130,25 +130,25 @@ struct SampledRenderer::State {
         return std::nullopt;
     }
 
-    // Calls `run` for each sample: one after the other, or, if one loads what another stores, all at once. Calls
-    // `take` with the results in the order of the samples, until it returns false.
+    // Calls `run` for each sample: one after the other, or, if one loads what another stores or they have instruments,
+    // all at once. Calls `take` with the results in the order of the samples, until it returns false.
     template <class Run, class Take>
-    void each(const Run& run, const Take& take) {
+    void each(std::span<const Instruments> instruments, const Run& run, const Take& take) {
         std::vector<RenderResult> results;
-        if (sampling.is_joint()) results = run_jointly(run);
+        if (sampling.is_joint() || !instruments.empty()) results = run_jointly(instruments, run);
         for (std::size_t number = 0; number < renderers.size(); ++number)
             if (!take(results.empty() ? run(renderer(number), number, Instruments{}) : std::move(results[number])))
                 return;
     }
 
     template <class Run>
-    [[nodiscard]] std::vector<RenderResult> run_jointly(const Run& run) {
+    [[nodiscard]] std::vector<RenderResult> run_jointly(std::span<const Instruments> instruments, const Run& run) {
         std::vector<RenderResult> results(renderers.size());
         for (std::size_t number = 0; number < results.size(); ++number) static_cast<void>(renderer(number));
         SampleGroup group{sampling.samples};
         std::vector<std::exception_ptr> errors(results.size());
         const auto run_sample = [&](std::size_t number) {
-            Instruments joint;
+            Instruments joint = instruments.empty() ? Instruments{} : instruments[number];
             joint.samples = {&group, static_cast<int>(number), sampling.loads, sampling.composites};
             try {
                 results[number] = run(*renderers[number], number, joint);
@@ -218,17 +218,20 @@ std::vector<RenderResult> SampledRenderer::render_traced(const Algorithm& algori
     }
     traces.assign(s.renderers.size(), {});
     std::vector<RenderResult> results;
-    s.each([&](Renderer& renderer, std::size_t number,
-               const Instruments& joint) { return renderer.render_traced(algorithm, traces[number], joint); },
-           [&](RenderResult&& one) {
-               results.push_back(std::move(one));
-               return true;
-           });
+    s.each(
+        {},
+        [&](Renderer& renderer, std::size_t number, const Instruments& joint) {
+            return renderer.render_traced(algorithm, traces[number], joint);
+        },
+        [&](RenderResult&& one) {
+            results.push_back(std::move(one));
+            return true;
+        });
     return results;
 }
 
 RenderResult SampledRenderer::render(const Algorithm& algorithm, const std::function<void(double)>& progress,
-                                     std::vector<Image>* own_colors) {
+                                     std::vector<Image>* own_colors, std::span<const Instruments> instruments) {
     State& s = *state_;
     if (auto lacking = s.refusal(algorithm)) {
         RenderResult refused;
@@ -237,17 +240,18 @@ RenderResult SampledRenderer::render(const Algorithm& algorithm, const std::func
         return refused;
     }
     const int samples = s.sampling.samples;
-    if (samples == 1) return s.renderer(0).render(algorithm, progress);
+    if (samples == 1)
+        return s.renderer(0).render(algorithm, progress, instruments.empty() ? Instruments{} : instruments[0]);
     std::vector<Image> colors;
     SampleSum sum{samples, s.profile, s.options.raster.depth_order == rasterizer::DepthOrder::greater};
     RenderResult refused;
     const bool keeps_colors = own_colors != nullptr || s.sampling.resolve == Resolve::quincunx;
     const auto run = [&](Renderer& renderer, std::size_t number, const Instruments& joint) {
         const auto share = [&](double own) { progress((static_cast<double>(number) + own) / samples); };
-        const bool shows = progress && !s.sampling.is_joint();
+        const bool shows = progress && !s.sampling.is_joint() && instruments.empty();
         return renderer.render(algorithm, shows ? std::function<void(double)>{share} : nullptr, joint);
     };
-    s.each(run, [&](RenderResult&& one) {
+    s.each(instruments, run, [&](RenderResult&& one) {
         if (one.outcome == Outcome::refused) {
             refused = std::move(one);
             return false;

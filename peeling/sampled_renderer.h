@@ -11,25 +11,13 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "peeling/multisampling.h"
 #include "peeling/render.h"
-#include "pipeline/formats/resolve.h"
-#include "pipeline/frame/sample_loads.h"
 
 namespace strata::peeling {
-
-// The samples of a pixel, and the ones that programs load. RenderOptions::raster says where programs are evaluated.
-struct Multisampling {
-    int samples = 1;  // 1, 2, 4 or 8
-    pipeline::Resolve resolve = pipeline::Resolve::box;
-    pipeline::LoadedSample loads = pipeline::LoadedSample::own;       // of geometry passes
-    pipeline::LoadedSample composites = pipeline::LoadedSample::own;  // of full-screen passes
-    // Loads of another sample need the frames of all samples together, in literal execution.
-    [[nodiscard]] bool is_joint() const noexcept {
-        return samples > 1 && (loads != pipeline::LoadedSample::own || composites != pipeline::LoadedSample::own);
-    }
-};
 
 class SampledRenderer {
   public:
@@ -42,9 +30,11 @@ class SampledRenderer {
 
     // Renders and resolves. The result has a refusal where Renderer::render has one, if the profile lacks the number of
     // samples or the filter, and, for several samples, if the algorithm stores fragments in samples. `own_colors`,
-    // unless null, receives the picture of each sample.
+    // unless null, receives the picture of each sample. `instruments`: none, or those of each sample, whose frames then
+    // advance together, step by step and each on a thread of its own, so that all have the same passes.
     [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress = {},
-                                      std::vector<pipeline::Image>* own_colors = nullptr);
+                                      std::vector<pipeline::Image>* own_colors = nullptr,
+                                      std::span<const pipeline::Instruments> instruments = {});
 
     // The frame of each sample without an audit, with its traces. Results with a refusal where it is refused.
     [[nodiscard]] std::vector<RenderResult> render_traced(const Algorithm& algorithm,

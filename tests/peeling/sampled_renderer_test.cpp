@@ -1,9 +1,11 @@
 // Tests sampled frames against each sample's frame drawn separately and the mean of the codes in integers.
 #include "peeling/sampled_renderer.h"
 
+#include <array>
 #include <catch2/catch.hpp>
 
 #include "pipeline/device/sample_points.h"
+#include "pipeline/frame/observer.h"
 #include "rasterizer/base/input_error.h"
 #include "tests/peeling/rendering.h"
 #include "tests/support/random_triangles.h"
@@ -214,4 +216,34 @@ TEST_CASE("features that no device supports with several samples are rejected") 
     RenderOptions beside = sampled_options();
     beside.raster.sample = strata::rasterizer::SamplePoint{3, 4};
     CHECK_THROWS_AS(render(scene.list, scene.view, {"softpipe", "dual"}, beside), strata::InputError);
+}
+
+TEST_CASE("frames of samples with instruments make the same passes and the bits of frames without") {
+    const TriangleScene scene = random_triangles(1207, 40);
+    const RenderOptions options = sampled_options();
+    constexpr std::size_t samples = 4;
+    for (const char* name : {"front_to_back", "dual"}) {
+        const Machine machine{"geforce8", name};
+        std::array<int, samples> passes{}, queries{};
+        std::array<strata::pipeline::Observer, samples> observers;
+        std::array<strata::pipeline::Instruments, samples> instruments;
+        for (std::size_t s = 0; s < samples; ++s) {
+            observers[s].step = [&, s](const auto&, const strata::pipeline::StepEvent& event) {
+                passes[s] += event.is_counted && event.step == strata::pipeline::Step::geometry ? 1 : 0;
+                queries[s] += event.step == strata::pipeline::Step::query ? 1 : 0;
+            };
+            instruments[s].observer = &observers[s];
+        }
+        SampledRenderer renderer{scene.list, scene.view, *find_profile(machine.profile), options, {.samples = samples}};
+        const RenderResult result = renderer.render(*find_algorithm(machine.algorithm), {}, nullptr, instruments);
+        const RenderResult expected = sampled(scene, machine, options, samples).result;
+        INFO(name);
+        CHECK(result.frame.color == expected.frame.color);
+        CHECK(result.frame.depth == expected.frame.depth);
+        for (std::size_t s = 0; s < samples; ++s) {
+            CHECK(passes[s] == static_cast<int>(expected.frame.passes.geometry));
+            CHECK(queries[s] == queries[0]);
+        }
+        CHECK(queries[0] > 0);
+    }
 }

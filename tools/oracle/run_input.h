@@ -1,5 +1,6 @@
 // tools/oracle/run_input.h - the input of a run: a scene, a camera, a device profile and options.
 #pragma once
+#include "peeling/multisampling.h"
 #include "peeling/render_options.h"
 
 namespace strata::pipeline {
@@ -14,6 +15,7 @@ struct RunInput {
     const pipeline::View& view;
     const pipeline::DeviceProfile& profile;
     peeling::RenderOptions options;  // execution, audit and layers are set by the function that runs it
+    peeling::Multisampling sampling{};
 };
 
 }  // namespace strata::oracle
