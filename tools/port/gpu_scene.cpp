@@ -113,6 +113,13 @@ void GpuScene::add_runs(const Mesh& mesh) {
 }
 
 void GpuScene::draw(Surfaces surfaces) const {
+    const SampledSettings& sampled = settings_.sampled;
+    const bool is_wrong = surfaces == Surfaces::transparent;
+    if (is_wrong && sampled.alpha_to_coverage) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+    if (is_wrong && ~sampled.mask != 0) {
+        glEnable(GL_SAMPLE_MASK);
+        glSampleMaski(0, sampled.mask);
+    }
     for (const Run& run : runs_[static_cast<std::size_t>(surfaces)]) {
         const bool culls = settings_.culling != Culling::as_listed || !run.double_sided;
         (culls ? glEnable : glDisable)(GL_CULL_FACE);
@@ -120,6 +127,8 @@ void GpuScene::draw(Surfaces surfaces) const {
         glFrontFace(run.mirrored ? GL_CW : GL_CCW);
         glDrawElements(GL_TRIANGLES, run.count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(run.first_byte));
     }
+    glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+    glDisable(GL_SAMPLE_MASK);
 }
 
 Handle GpuScene::make_program(const std::string& fragment, const std::vector<std::string>& samplers) const {

@@ -21,9 +21,9 @@ struct Options {
     bool list = false, picture_only = false;
 };
 
-void list_mistakes() {
-    for (const Mistake& mistake : mistakes())
-        fmt::print("{:<24}{:<18}{}\n", mistake.name, mistake.algorithm, mistake.words);
+void list_mistakes(const Options& options) {
+    for (const Mistake& mistake : options.samples > 1 ? sampled_mistakes() : mistakes())
+        fmt::print("{:<26}{:<18}{}\n", mistake.name, mistake.algorithm, mistake.words);
 }
 
 // The requested algorithms, or all of the pack's that the port supports.
@@ -45,8 +45,9 @@ void check_sampled(const Options& options, const Pack& pack, const std::vector<s
         throw std::runtime_error("--samples: expected a pack with d32f depth, found " +
                                  std::string(pack.formats.depth.name));
     for (const std::string& name : algorithms)
-        if (name != "front_to_back" && name != "dual" && name != "weighted_average")
-            throw std::runtime_error("--samples: expected front_to_back, dual or weighted_average, found " + name);
+        if (name != "front_to_back" && name != "dual" && name != "weighted_average" && name != "linked_list")
+            throw std::runtime_error(
+                "--samples: expected front_to_back, dual, weighted_average or linked_list, found " + name);
 }
 
 int run(const Options& options) {
@@ -56,11 +57,13 @@ int run(const Options& options) {
     const HeadlessContext context(options.driver, options.threads);
     if (options.samples > 1) {
         check_sampled(options, pack, algorithms);
-        const bool is_once = options.interpolation != "sample";
-        set_samples(options.samples, options.sample, is_once ? Shading::pixel : Shading::sample);
-        settings.interpolation = !is_once                            ? "smooth sample"
-                                 : options.interpolation == "centre" ? "smooth"
-                                                                     : "smooth centroid";
+        Shading& shading = settings.sampled.shading;
+        if (options.interpolation != "sample") shading = Shading::pixel;
+        set_samples(options.samples, options.sample < 0 ? settings.sampled.shown : options.sample, shading,
+                    settings.sampled.loads);
+        settings.interpolation = shading == Shading::sample            ? "smooth sample"
+                                 : options.interpolation == "centroid" ? "smooth centroid"
+                                                                       : "smooth";
     }
     set_window(pack.size, settings, pack.zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
     const GpuScene scene(pack.mesh, pack.size, settings);
@@ -102,7 +105,7 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--sample", o.sample, "what is written is this sample (default: the resolved picture)")
         ->check(CLI::Range(0, 31));
     app.add_option("--mistake", o.mistakes, "be wrong: names with commas between");
-    app.add_flag("--mistakes", o.list, "list them");
+    app.add_flag("--mistakes", o.list, "list them; with --samples those of several samples");
     app.add_option("--max-passes", o.max_passes, "geometry passes at most (default 200)")->check(CLI::PositiveNumber);
     app.add_flag("--picture-only", o.picture_only, "write neither targets nor layers");
 }
@@ -117,7 +120,7 @@ int main(int count, char** words) {
     strata::port::add_options(app, options);
     try {
         app.parse(count, words);
-        if (options.list) return strata::port::list_mistakes(), 0;
+        if (options.list) return strata::port::list_mistakes(options), 0;
         if (options.pack.empty() || options.output.empty()) throw CLI::RequiredError("PACK and -o");
         return strata::port::run(options);
     } catch (const CLI::ParseError& error) {

@@ -101,16 +101,45 @@ const std::vector<Mistake> all{
      [](PortSettings& w) { w.shadow_compare = GL_LESS; }},
 };
 
+const std::vector<Mistake> of_samples{
+    {"layers_resolved", "front_to_back", "every layer is resolved before it is composited, once a pixel",
+     [](PortSettings& w) { w.sampled.layers_resolved = true; }},
+    {"peels_sample_0", "front_to_back", "texelFetch(..., 0): the peel compares all samples with the depth of sample 0",
+     [](PortSettings& w) { w.sampled.loads.geometry = "0"; }},
+    {"composites_sample_0", "front_to_back", "the full-screen passes load sample 0 for all samples",
+     [](PortSettings& w) { w.sampled.loads.full_screen = "0"; }},
+    {"no_sample_shading", "front_to_back", "programs run once a pixel, at its centre, and load sample 0",
+     [](PortSettings& w) { w.sampled.shading = Shading::pixel; }},
+    {"list_of_pixel", "linked_list", "a fragment is stored once a pixel, without the samples that it covers",
+     [](PortSettings& w) { w.sampled.shading = Shading::pixel; }},
+    {"alpha_to_coverage", "weighted_average", "GL_SAMPLE_ALPHA_TO_COVERAGE is still on, from the foliage before",
+     [](PortSettings& w) { w.sampled.alpha_to_coverage = true; }},
+    {"mask_left_set", "front_to_back", "GL_SAMPLE_MASK of an earlier pass is still on, with samples 0 and 1",
+     [](PortSettings& w) { w.sampled.mask = 3; }},
+    {"shows_sample_0", "dual", "the picture is sample 0, not the resolve of all",
+     [](PortSettings& w) { w.sampled.shown = 0; }},
+    {"resolved_in_linear_light", "dual", "the picture of sRGB values is resolved with GL_FRAMEBUFFER_SRGB",
+     [](PortSettings& w) { w.sampled.resolves_linear_light = true; }},
+    {"opaque_resolved", "dual", "the opaque picture is resolved before the transparent one is composited over it",
+     [](PortSettings& w) { w.sampled.opaque_resolved = true; }},
+    {"opaque_depth_of_sample_0", "dual", "all samples are tested against the opaque depth of sample 0",
+     [](PortSettings& w) { w.sampled.first_opaque_depth = true; }},
+};
+
 }  // namespace
 
 const std::vector<Mistake>& mistakes() { return all; }
+const std::vector<Mistake>& sampled_mistakes() { return of_samples; }
 
 PortSettings settings_with(const std::string& names) {
     PortSettings settings;
     std::istringstream words(names);
     for (std::string word; std::getline(words, word, ',');) {
-        const auto found = std::ranges::find_if(all, [&](const Mistake& m) { return word == m.name; });
-        if (found == all.end())
+        const auto is_named = [&](const Mistake& m) { return word == m.name; };
+        const bool is_of_samples = std::ranges::any_of(of_samples, is_named);
+        const std::vector<Mistake>& list = is_of_samples ? of_samples : all;
+        const auto found = std::ranges::find_if(list, is_named);
+        if (found == list.end())
             throw std::invalid_argument("--mistake: expected a name that --mistakes lists, found '" + word + "'");
         found->make(settings);
     }

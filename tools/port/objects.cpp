@@ -26,6 +26,7 @@ constexpr auto as_written = R"(#version 330 core
 struct Sampling {
     int samples = 1, shown = 0;
     Shading shading = Shading::sample;
+    SampleLoads loads{};
 };
 Sampling& sampling() {
     static Sampling chosen;
@@ -35,12 +36,16 @@ GLenum texture_target() { return sampling().samples > 1 ? GL_TEXTURE_2D_MULTISAM
 
 // Programs are written for one sample: with several, each fetches and interpolates its own, or, once a pixel, fetches
 // sample 0. A program that names its sample runs once for each.
-std::string sampled_head(bool is_once_a_pixel) {
+std::string sampled_head(bool is_full_screen) {
+    const Sampling& chosen = sampling();
+    const bool is_once_a_pixel = chosen.shading == Shading::pixel && !is_full_screen;
     return fmt::format(
         "#extension GL_ARB_sample_shading : require\n"
         "#define sampler2D sampler2DMS\n"
         "#define texelFetch(source, texel, level) texelFetch(source, texel, {})\n",
-        is_once_a_pixel ? "0" : "gl_SampleID");
+        is_once_a_pixel  ? "0"
+        : is_full_screen ? chosen.loads.full_screen
+                         : chosen.loads.geometry);
 }
 
 // While it lives, textures and programs have one sample, and what the copy sets is kept for the caller.
@@ -124,14 +129,15 @@ const Format* find_format(const std::string& name) {
     return nullptr;
 }
 
-void set_samples(int samples, int shown, Shading shading) {
-    sampling() = {samples, shown, shading};
+void set_samples(int samples, int shown, Shading shading, const SampleLoads& loads) {
+    sampling() = {samples, shown, shading, loads};
     if (samples == 1 || shading == Shading::pixel) return;
     glEnable(GL_SAMPLE_SHADING);
     glMinSampleShading(1.0f);
 }
 
 int samples_shown() { return sampling().shown; }
+int samples_per_pixel() { return sampling().samples; }
 
 Handle make_texture(const Format& format, Size size) {
     return texture_of(format.sized, format.external, format.type, size);
@@ -173,9 +179,8 @@ Handle make_stencil_framebuffer(GLuint depth_stencil) {
 }
 
 Handle make_program(const ProgramText& text) {
-    const bool is_once_a_pixel = sampling().shading == Shading::pixel && !text.is_full_screen;
     const std::string head =
-        as_written + (sampling().samples > 1 ? sampled_head(is_once_a_pixel) : std::string{}) + text.head;
+        as_written + (sampling().samples > 1 ? sampled_head(text.is_full_screen) : std::string{}) + text.head;
     const Handle stages[] = {compile(GL_VERTEX_SHADER, head + text.vertex),
                              compile(GL_FRAGMENT_SHADER, head + text.fragment)};
     const GLuint name = glCreateProgram();
@@ -238,19 +243,57 @@ Image read_sample(GLuint texture, int sample, const Format& format, Size size) {
 
 namespace {
 
-// By the driver's own resolve.
-Image read_resolved(GLuint texture, const Format& format, Size size) {
-    const OneSample copied;
+// A copy with one sample, by the driver's own resolve; of srgb8 in linear light. The caller holds a OneSample.
+Handle resolved(GLuint texture, const Format& format, Size size) {
     const Handle source = new_framebuffer();
     attach(GL_COLOR_ATTACHMENT0, texture, GL_TEXTURE_2D_MULTISAMPLE);
-    const Handle copy = make_texture(format, size);
+    Handle copy = make_texture(format, size);
     const Handle target = make_framebuffer({copy.name()});
     glBindFramebuffer(GL_READ_FRAMEBUFFER, source.name());
+    if (format == srgb8) glEnable(GL_FRAMEBUFFER_SRGB);
     glBlitFramebuffer(0, 0, size.width, size.height, 0, 0, size.width, size.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    return read_back(copy.name(), format, size);
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    return copy;
+}
+
+Image read_resolved(GLuint texture, const Format& format, Size size) {
+    const OneSample copied;
+    return read_back(resolved(texture, format, size).name(), format, size);
 }
 
 }  // namespace
+
+void resolve_in_place(GLuint texture, const Format& format, Size size) {
+    const OneSample copied;
+    const Handle program = make_full_screen_program(
+        "uniform sampler2D source; out vec4 drawn;\n"
+        "void main() { drawn = texelFetch(source, ivec2(gl_FragCoord.xy), 0); }",
+        {"source"});
+    const Handle copy = resolved(texture, format, size);
+    const Handle target = new_framebuffer();
+    attach(GL_COLOR_ATTACHMENT0, texture, GL_TEXTURE_2D_MULTISAMPLE);
+    bind({copy.name()});
+    draw_full_screen(program);
+}
+
+void share_first_depth(GLuint texture, Size size) {
+    const OneSample copied;
+    const Image first = read_sample(texture, 0, d32f, size);
+    const Handle program = make_full_screen_program(
+        "uniform sampler2D source;\n"
+        "void main() { gl_FragDepth = texelFetch(source, ivec2(gl_FragCoord.xy), 0).r; }",
+        {"source"});
+    const Handle copy = make_texture(r32f, size);
+    bind({copy.name()});
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.width, size.height, GL_RED, GL_FLOAT, first.bytes.data());
+    const Handle target = new_framebuffer();
+    attach(GL_DEPTH_ATTACHMENT, texture, GL_TEXTURE_2D_MULTISAMPLE);
+    glDrawBuffer(GL_NONE);
+    glUseProgram(program.name());
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_ALWAYS);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
 
 Image read_back(GLuint texture, const Format& format, Size size) {
     if (sampling().samples > 1)

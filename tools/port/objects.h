@@ -77,10 +77,16 @@ class Handle {
 // 0. Full-screen passes always run once a sample.
 enum class Shading : std::uint8_t { sample, pixel };
 
+// GLSL expressions for the sample that programs load of earlier passes, with sample shading.
+struct SampleLoads {
+    const char *geometry = "gl_SampleID", *full_screen = "gl_SampleID";
+};
+
 // From now on every texture and program has `samples` samples per pixel. read_back() returns sample `shown`, or for -1
-// the resolve of all. Formats are then rgba8, floats and d32f. With 1 nothing changes.
-void set_samples(int samples, int shown, Shading shading = Shading::sample);
+// the resolve of all. Formats are then rgba8, srgb8, floats and d32f. With 1 nothing changes.
+void set_samples(int samples, int shown, Shading shading = Shading::sample, const SampleLoads& loads = {});
 [[nodiscard]] int samples_shown();
+[[nodiscard]] int samples_per_pixel();
 
 // A two-dimensional texture without mipmaps, with nearest filtering and undefined contents.
 [[nodiscard]] Handle make_texture(const Format& format, Size size);
@@ -118,6 +124,11 @@ void bind(std::initializer_list<GLuint> textures);
 
 // One sample of a multisampled texture, independent of set_samples.
 [[nodiscard]] Image read_sample(GLuint texture, int sample, const Format& format, Size size);
+
+// Replaces all samples of a colour by their resolve, as if the texture had one sample.
+void resolve_in_place(GLuint texture, const Format& format, Size size);
+// Replaces all samples of a depth by sample 0.
+void share_first_depth(GLuint texture, Size size);
 
 // A texture's codes; s8: the stencil of a depth-stencil texture.
 [[nodiscard]] Image read_back(GLuint texture, const Format& format, Size size);

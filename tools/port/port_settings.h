@@ -11,6 +11,19 @@ namespace strata::port {
 
 enum class Culling : std::uint8_t { as_listed, always_back, always_front };
 
+// Choices of a port with several samples per pixel.
+struct SampledSettings {
+    Shading shading = Shading::sample;
+    SampleLoads loads{};
+    int shown = -1;                    // a sample instead of the resolved picture
+    bool layers_resolved = false;      // before they are composited
+    bool opaque_resolved = false;      // before anything is composited over it
+    bool first_opaque_depth = false;   // all samples are tested against that of sample 0
+    bool alpha_to_coverage = false;    // of transparent surfaces
+    GLbitfield mask = ~GLbitfield{0};  // likewise
+    bool resolves_linear_light = false;
+};
+
 struct PortSettings {
     // Vertices and the frame.
     GLenum origin = GL_UPPER_LEFT;  // row 0 of memory is the top
@@ -50,6 +63,7 @@ struct PortSettings {
     GLenum stencil_increment = GL_INCR;
     bool stencil_kept = true;  // coherent_stencil's second pass continues with the first one's stencil
     GLenum shadow_compare = GL_GREATER;
+    SampledSettings sampled{};
 };
 
 // A mistake, and an algorithm whose result it changes.
@@ -58,6 +72,8 @@ struct Mistake {
     void (*make)(PortSettings&) = nullptr;
 };
 [[nodiscard]] const std::vector<Mistake>& mistakes();
+// Those of ports with several samples per pixel.
+[[nodiscard]] const std::vector<Mistake>& sampled_mistakes();
 
 // Comma-separated names, to combine mistakes. Throws std::invalid_argument for an unknown name.
 [[nodiscard]] PortSettings settings_with(const std::string& names);

@@ -152,6 +152,8 @@ void peel_both_ends(const DualTargets& t, std::size_t last) {
 // Blends the far layers with OVER. Returns the number of pixels for which min_max[`min_max`] still contains depths: 0
 // ends the peel.
 std::uint64_t blend_back(const DualTargets& t, std::size_t min_max) {
+    if (t.input.settings.sampled.layers_resolved)
+        resolve_in_place(t.back_dump.name(), t.input.formats.color, t.input.size);
     glBindFramebuffer(GL_FRAMEBUFFER, t.blend.name());
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(t.input.settings.over[0], t.input.settings.over[1]);
@@ -196,6 +198,8 @@ int dual(const DualTargets& t, int max_passes, Image& picture, Record* record) {
         show(t, "full_screen", still, record);
         if (t.input.settings.swaps) last = 1 - last;
     }
+    if (t.input.settings.sampled.layers_resolved)
+        resolve_in_place(t.front[last].name(), t.input.formats.color, t.input.size);
     t.finish.draw(t.front[last].name(), t.back.name(), picture, record);
     return passes;
 }

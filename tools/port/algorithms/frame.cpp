@@ -15,9 +15,10 @@ void set_window(Size size, const PortSettings& settings, GLenum clip_depth) {
 Opaque::Opaque(const JobInput& input, const Format& depth)
     : size_{input.size},
       format_{depth},
+      color_format_{input.formats.color},
       background_{input.background},
       exists_{input.scene.has(Surfaces::opaque)},
-      tested_{input.settings.opaque_tested},
+      settings_{input.settings},
       color_{make_texture(input.formats.color, input.size)},
       depth_{make_texture(depth, input.size)},
       framebuffer_{make_framebuffer({color_.name()}, depth_.name())},
@@ -34,7 +35,9 @@ void Opaque::draw(const GpuScene& scene) const {
     glDepthFunc(GL_LESS);
     glUseProgram(program_.name());
     scene.draw(Surfaces::opaque);
-    if (!tested_) glClearBufferfv(GL_DEPTH, 0, &far_plane);
+    if (!settings_.opaque_tested) glClearBufferfv(GL_DEPTH, 0, &far_plane);
+    if (settings_.sampled.opaque_resolved) resolve_in_place(color_.name(), color_format_, size_);
+    if (settings_.sampled.first_opaque_depth) share_first_depth(depth_.name(), size_);
 }
 
 void Opaque::copy_depth_to(const Handle& framebuffer) const {
@@ -70,8 +73,7 @@ std::string Opaque::hidden_text() const {
 
 Finish::Finish(const JobInput& input, const std::string& through)
     : input_{input},
-      encodes_{input.settings.encoded_again && input.formats.color == rgba8},
-      target_{make_texture(encodes_ ? srgb8 : input.formats.color, input.size)},
+      target_{make_texture(picture_format(input), input.size)},
       framebuffer_{make_framebuffer({target_.name()})},
       program_{make_full_screen_program(
           fmt::format(R"(
@@ -93,7 +95,7 @@ void main() {{
 void Finish::draw(GLuint front, GLuint behind, Image& picture, Record* record) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     glDisable(GL_BLEND);
-    if (encodes_) glEnable(GL_FRAMEBUFFER_SRGB);
+    if (input_.settings.encoded_again) glEnable(GL_FRAMEBUFFER_SRGB);
     bind({front, behind});
     draw_full_screen(program_);
     glDisable(GL_FRAMEBUFFER_SRGB);
@@ -101,8 +103,13 @@ void Finish::draw(GLuint front, GLuint behind, Image& picture, Record* record) c
     picture = read_picture(target_.name(), input_);
 }
 
+Format picture_format(const JobInput& input) {
+    const bool is_encoded = input.settings.encoded_again || input.settings.sampled.resolves_linear_light;
+    return is_encoded && input.formats.color == rgba8 ? srgb8 : input.formats.color;
+}
+
 Image read_picture(GLuint texture, const JobInput& input) {
-    Format read = input.formats.color;
+    Format read = picture_format(input);
     read.external = input.settings.channel_order;
     Image picture = read_back(texture, read, input.size);
     picture.format = input.formats.color;

@@ -28,9 +28,10 @@ class Opaque {
 
   private:
     Size size_;
-    Format format_;
+    Format format_, color_format_;
     std::array<float, 4> background_;
-    bool exists_, tested_;
+    bool exists_;
+    PortSettings settings_;
     Handle color_, depth_, framebuffer_, program_;
 };
 
@@ -43,11 +44,12 @@ class Finish {
 
   private:
     JobInput input_;
-    bool encodes_;
     Handle target_, framebuffer_, program_;
 };
 
-// Reads a finished target of the frame's format in the form of the port's results.
+// Of the finished target: the frame's, or srgb8 for a port that has such a target by mistake.
+[[nodiscard]] Format picture_format(const JobInput& input);
+// Reads a finished target of picture_format() in the form of the port's results.
 [[nodiscard]] Image read_picture(GLuint texture, const JobInput& input);
 
 // GLSL: `float stored(float z)`, a depth as the driver stores it and reads it back: the code times the binary32

@@ -80,6 +80,7 @@ std::uint64_t peel_layer(const PeelTargets& t, int pass) {
 
 // UNDER: the layer is multiplied by the transmittance in destination alpha, which is then multiplied by 1 - alpha.
 void blend_under(const PeelTargets& t) {
+    if (t.input.settings.sampled.layers_resolved) resolve_in_place(t.layer.name(), t.input.formats.color, t.input.size);
     glBindFramebuffer(GL_FRAMEBUFFER, t.under.name());
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);

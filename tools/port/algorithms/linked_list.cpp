@@ -13,7 +13,7 @@ namespace strata::port {
 
 namespace {
 
-// A link is the number of a node plus 1, or 0.
+// A link is the number of a node plus 1, or 0. With several samples each has its own list.
 constexpr auto storage_text = R"(
 struct Node {{
     vec4 color;
@@ -22,7 +22,7 @@ struct Node {{
 }};
 layout(std430, binding = 0) buffer Heads {{ uint taken; uint heads[]; }};
 layout(std430, binding = 1) buffer Nodes {{ Node nodes[]; }};
-uint index(ivec2 pixel) {{ return uint(pixel.y * {} + pixel.x); }}
+uint index(ivec2 pixel) {{ return uint(pixel.y * {} + pixel.x) * {}u + uint({}); }}
 )";
 
 constexpr auto append_text = R"(
@@ -82,7 +82,13 @@ Handle make_storage() {
 // The number of fragments.
 std::size_t nodes_for(const JobInput& in) {
     const std::vector<std::uint32_t> counts = count_fragments(in.scene, in.size);
-    const auto all = std::accumulate(counts.begin(), counts.end(), std::size_t{1});
+    auto all = std::accumulate(counts.begin(), counts.end(), std::size_t{1});
+    if (samples_per_pixel() > 1) {
+        if (samples_shown() >= 0)
+            throw std::runtime_error("linked_list: expected the resolved picture, found --sample");
+        // Counts are means of a pixel's samples, without their fraction.
+        all = (all + counts.size()) * static_cast<std::size_t>(samples_per_pixel());
+    }
     GLint64 most = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
     if (all * node_bytes > static_cast<std::size_t>(most))
@@ -103,7 +109,7 @@ struct ListTargets {
           nodes_needed{nodes_for(in)},
           heads{make_storage()},
           nodes{make_storage()},
-          result{make_texture(in.formats.color, in.size)},
+          result{make_texture(picture_format(in), in.size)},
           framebuffer{make_framebuffer({result.name()})},
           append{in.scene.make_program(stored_text(in.formats.depth) + opaque.hidden_text() + storage(in) + append_text,
                                        {"opaque_depth"})},
@@ -114,11 +120,14 @@ struct ListTargets {
               {"behind_target"})} {}
 
   private:
-    static std::string storage(const JobInput& in) { return fmt::format(storage_text, in.size.width); }
+    static std::string storage(const JobInput& in) {
+        const bool is_of_samples = samples_per_pixel() > 1 && in.settings.sampled.shading == Shading::sample;
+        return fmt::format(storage_text, in.size.width, samples_per_pixel(), is_of_samples ? "gl_SampleID" : "0");
+    }
 };
 
 void make_empty(const ListTargets& t) {
-    const std::vector<GLuint> zeros(t.input.size.area() + 1);
+    const std::vector<GLuint> zeros(t.input.size.area() * static_cast<std::size_t>(samples_per_pixel()) + 1);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, t.heads.name());
     glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(zeros.size() * sizeof zeros[0]), zeros.data(),
                  GL_DYNAMIC_COPY);

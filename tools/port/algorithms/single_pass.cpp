@@ -68,7 +68,7 @@ struct AverageTargets {
           opaque{in, d32f},
           sums{make_texture(sums_format, in.size)},
           count{make_texture(count_format, in.size)},
-          result{make_texture(in.formats.color, in.size)},
+          result{make_texture(picture_format(in), in.size)},
           accumulate{make_framebuffer({sums.name(), count.name()}, opaque.depth())},
           finish{make_framebuffer({result.name()})},
           accumulate_program{in.scene.make_program(fmt::format(accumulate_text, in.settings.premultiplied))},
@@ -99,6 +99,10 @@ void accumulate(const AverageTargets& t, Adds adds) {
 }
 
 void resolve(const AverageTargets& t) {
+    if (t.input.settings.sampled.layers_resolved) {
+        resolve_in_place(t.sums.name(), t.sums_format, t.input.size);
+        resolve_in_place(t.count.name(), t.count_format, t.input.size);
+    }
     glBindFramebuffer(GL_FRAMEBUFFER, t.finish.name());
     glDisable(GL_BLEND);
     bind({t.sums.name(), t.count.name(), t.opaque.color()});
