@@ -25,8 +25,9 @@ namespace strata::peeling {
                              const RenderOptions& options);
 
 // `deepest`: the number of fragments of the frame's deepest pixel, which is computed where it is empty and needed.
-[[nodiscard]] int double_limit(const pipeline::Frame& frame, std::optional<int>& deepest);
 [[nodiscard]] int pass_limit(const Algorithm& algorithm, const RenderOptions& options, const pipeline::Frame& frame,
                              std::optional<int>& deepest);
+// The limit of a frame whose programs load other samples, which may never end with any algorithm.
+[[nodiscard]] int loads_limit(const Algorithm& algorithm, const pipeline::Frame& frame, std::optional<int>& deepest);
 
 }  // namespace strata::peeling

@@ -220,7 +220,8 @@ struct Renderer::State {
                    const Instruments& instruments, std::vector<RegionTrace>* traces, RenderResult& result) {
         Frame f = frame(algorithm);
         was_invariant = f.is_invariant();
-        if (instruments.samples.group != nullptr && !limits_passes(options)) f.max_passes = double_limit(f, deepest);
+        if (instruments.samples.loads_others() && !limits_passes(options))
+            f.max_passes = std::max(f.max_passes, loads_limit(algorithm, f, deepest));
         if (traces != nullptr) {
             f.trace = true;
             f.trace_bytes = ~std::uint64_t{0};
@@ -365,6 +366,13 @@ FrameFragments Renderer::fragments(const Algorithm& algorithm) {
     state_->shown().turn(found);
     return found;
 }
+
+int Renderer::limiting_depth(const Algorithm& algorithm) {
+    if (state_->refusal(algorithm)) return 0;
+    return state_->frame(algorithm).max_passes == 0 ? 0 : state_->deepest.value_or(0);
+}
+
+void Renderer::set_limiting_depth(int deepest) { state_->deepest = deepest; }
 
 DepthFormat Renderer::depth_format() const noexcept { return state_->depth.format; }
 Format Renderer::color_format() const noexcept { return state_->color_format; }

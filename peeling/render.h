@@ -83,6 +83,11 @@ class Renderer {
     // InputError if the fragments take more than the audit's memory.
     [[nodiscard]] FrameFragments fragments(const Algorithm& algorithm);
 
+    // The fragments of the deepest pixel if the frame has a limit of passes that depends on them, else 0. The limit is
+    // then computed from `deepest` instead: that of all samples, so that all have the same limit.
+    [[nodiscard]] int limiting_depth(const Algorithm& algorithm);
+    void set_limiting_depth(int deepest);
+
     [[nodiscard]] pipeline::DepthFormat depth_format() const noexcept;
     [[nodiscard]] pipeline::Format color_format() const noexcept;
 

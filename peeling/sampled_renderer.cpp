@@ -11,6 +11,7 @@
 
 #include "peeling/audit/pixel_audit.h"
 #include "peeling/audit/region_trace.h"
+#include "peeling/pass_limit.h"
 #include "pipeline/device/sample_points.h"
 #include "pipeline/formats/resolve.h"
 #include "pipeline/frame/sample_group.h"
@@ -130,15 +131,34 @@ struct SampledRenderer::State {
         return std::nullopt;
     }
 
-    // Calls `run` for each sample: one after the other, or, if one loads what another stores or they have instruments,
+    // True if what a sample's frame does depends on the others: it loads what they store, or a query that is compared
+    // with a share of the frame, or a limit of passes over several loops, counts them all.
+    [[nodiscard]] bool is_joint(const Algorithm& algorithm) const {
+        const bool counts_loops = (algorithm.runs_loops || algorithm.whole_frame) && limits_passes(options);
+        const bool counts_all = options.termination.rule == TerminationRule::ratio || counts_loops;
+        return sampling.is_joint() || (sampling.samples > 1 && counts_all);
+    }
+
+    // Calls `run` for each sample: one after the other, or, if the frames depend on one another or have instruments,
     // all at once. Calls `take` with the results in the order of the samples, until it returns false.
     template <class Run, class Take>
-    void each(std::span<const Instruments> instruments, const Run& run, const Take& take) {
+    void each(const Algorithm& algorithm, std::span<const Instruments> instruments, const Run& run, const Take& take) {
+        share_limit(algorithm);
         std::vector<RenderResult> results;
-        if (sampling.is_joint() || !instruments.empty()) results = run_jointly(instruments, run);
+        if (is_joint(algorithm) || !instruments.empty()) results = run_jointly(instruments, run);
         for (std::size_t number = 0; number < renderers.size(); ++number)
             if (!take(results.empty() ? run(renderer(number), number, Instruments{}) : std::move(results[number])))
                 return;
+    }
+
+    // A peel that may never end has the same limit of passes in the frame of each sample.
+    void share_limit(const Algorithm& algorithm) {
+        if (sampling.samples == 1 || limits_passes(options)) return;
+        int deepest = 0;
+        for (std::size_t number = 0; number < renderers.size(); ++number)
+            deepest = std::max(deepest, renderer(number).limiting_depth(algorithm));
+        for (std::size_t number = 0; deepest > 0 && number < renderers.size(); ++number)
+            renderer(number).set_limiting_depth(deepest);
     }
 
     template <class Run>
@@ -219,7 +239,7 @@ std::vector<RenderResult> SampledRenderer::render_traced(const Algorithm& algori
     traces.assign(s.renderers.size(), {});
     std::vector<RenderResult> results;
     s.each(
-        {},
+        algorithm, {},
         [&](Renderer& renderer, std::size_t number, const Instruments& joint) {
             return renderer.render_traced(algorithm, traces[number], joint);
         },
@@ -248,10 +268,10 @@ RenderResult SampledRenderer::render(const Algorithm& algorithm, const std::func
     const bool keeps_colors = own_colors != nullptr || s.sampling.resolve == Resolve::quincunx;
     const auto run = [&](Renderer& renderer, std::size_t number, const Instruments& joint) {
         const auto share = [&](double own) { progress((static_cast<double>(number) + own) / samples); };
-        const bool shows = progress && !s.sampling.is_joint() && instruments.empty();
+        const bool shows = progress && !s.is_joint(algorithm) && instruments.empty();
         return renderer.render(algorithm, shows ? std::function<void(double)>{share} : nullptr, joint);
     };
-    s.each(instruments, run, [&](RenderResult&& one) {
+    s.each(algorithm, instruments, run, [&](RenderResult&& one) {
         if (one.outcome == Outcome::refused) {
             refused = std::move(one);
             return false;

@@ -2,8 +2,9 @@
 // so that a program of one sample can load what another has stored.
 //
 // Rule     The frames run the same body. They meet before and after every pass that loads by another rule than `own`,
-//          and at every query and limit: a query counts all samples, and a limit holds when all have reached it. So all
-//          make the same steps, and the result does not depend on the threads.
+//          after every step that an observer was told of, and at every query and limit: a query counts all samples, and
+//          a limit holds when all have reached it. So all make the same steps, and the result does not depend on the
+//          threads.
 // Source   pipeline/reference/fragment-stages.md 13.5.
 // Tests    tests/peeling/sample_loads_test.cpp
 #pragma once

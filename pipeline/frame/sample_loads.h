@@ -18,6 +18,9 @@ struct SampleLoads {
     int sample = 0;
     LoadedSample geometry = LoadedSample::own;     // loads of geometry passes: of peels
     LoadedSample full_screen = LoadedSample::own;  // loads of full-screen passes: of composites
+    [[nodiscard]] bool loads_others() const noexcept {
+        return group != nullptr && (geometry != LoadedSample::own || full_screen != LoadedSample::own);
+    }
 };
 
 }  // namespace strata::pipeline

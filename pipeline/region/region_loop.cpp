@@ -26,7 +26,8 @@ bool Loop::any(Count count, Idle idle) {
     if (shared_.frame.termination.rule == TerminationRule::fixed) return true;  // no query at all
     if (shared_.instruments.log_passes) ++shared_.statistics.pass_log.queries;
     if (!shared_.instruments.trust_idle) idle = Idle::no;
-    if (SampleGroup* const group = shared_.instruments.samples.group) count.own_ = group->sum(count.own_);
+    SampleGroup* const group = shared_.instruments.samples.group;
+    if (group != nullptr) count.own_ = group->sum(count.own_);
     LoopStatistics& loop = shared_.statistics.loops.back();
     const std::size_t index = loop.decisions.size(), number = shared_.statistics.loops.size() - 1;
     const bool is_known = number < shared_.statistics.script.size() && index < shared_.statistics.script[number].size();
@@ -34,7 +35,8 @@ bool Loop::any(Count count, Idle idle) {
     if (is_known) {
         answer = shared_.statistics.script[number][index];
     } else if (shared_.is_frame()) {
-        answer = continues(shared_.frame.termination, shared_.frame.rect(), count.own_);
+        const int samples = group == nullptr ? 1 : group->samples();
+        answer = continues(shared_.frame.termination, shared_.frame.rect(), count.own_, samples);
     } else {
         answer = count.own_ > 0;
     }

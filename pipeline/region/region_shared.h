@@ -14,6 +14,7 @@
 #include "pipeline/frame/observer.h"
 #include "pipeline/frame/region_area.h"
 #include "pipeline/frame/region_statistics.h"
+#include "pipeline/frame/sample_group.h"
 #include "pipeline/frame/trace.h"
 
 namespace strata::pipeline {
@@ -57,6 +58,8 @@ struct RegionShared {
         event.is_counted = statistics.counts;
         event.iteration = statistics.iterations;
         instruments.observer->step(region, event);
+        // So every sample has made a step before any makes the next.
+        if (instruments.samples.group != nullptr && event.is_counted) instruments.samples.group->meet();
     }
     void trace(const TraceEntry& entry) const;  // and reports it
     // Diagnostics refer to pixels of the window, not of the region: `pixels` of them, the first at region index

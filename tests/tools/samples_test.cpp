@@ -1,6 +1,7 @@
 // Tests the options for samples: the expected error messages are written by hand, and the command that a picture
 // records must draw it again.
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "tests/tools/program.h"
 
@@ -72,6 +73,21 @@ TEST_CASE("a pack of one sample has its shading and coverage and passes and expl
         CHECK(pixel !=
               shell(folder, "strata explain teapot --pixel 12,9 --json --alpha 0.5 --max-passes 9" + of_sample).out);
         CHECK(shell(folder, "rm -r pack a.exr b.exr c.exr").status == 0);
+    }
+}
+
+TEST_CASE("passes of all samples have targets of all samples and end with the resolved picture") {
+    const Folder folder;
+    for (const std::string more : {"", "--shading pixel --load-sample 0 --composite-sample resolved"}) {
+        const std::string options = " --size 24x18 -q --samples 4 --alpha 0.5 --algorithm front_to_back " + more;
+        CHECK(shell(folder, "strata passes teapot -o p" + options).status == 0);
+        const auto passes = nlohmann::json::parse(shell(folder, "cat p/passes.json").out).at("passes");
+        const auto stats = nlohmann::json::parse(shell(folder, "strata render teapot --stats -" + options).out);
+        for (const auto& pass : passes)
+            for (const auto& target : pass.at("targets"))
+                CHECK(target.at("samples") == (pass.at("kind") == "published" ? 1 : 4));
+        CHECK(passes.back().at("targets").at(0).at("digest") == stats.at(0).at("digest").at("color"));
+        CHECK(shell(folder, "rm -r p").status == 0);
     }
 }
 

@@ -319,7 +319,7 @@ std::vector<History> explain(const RunInput& input, const peeling::Algorithm& al
             },
         .stage = [&](const Region& region, const StageEvent& event) { recorder.stage(region, event); },
         .traced = [&](const Region&, const pipeline::TraceEntry& entry) { recorder.traced(entry); }};
-    observe(everything, algorithm, observer);
+    observe(everything, algorithm, {&observer, 1});
     for (History& history : histories) {
         history.depth_format = format;
         history.is_reversed = input.options.raster.depth_order == rasterizer::DepthOrder::greater;

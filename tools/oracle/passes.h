@@ -5,10 +5,14 @@
 //          them; the second of one name is NAME.1, and so on: a pair that is swapped keeps its names. Under reversed
 //          depth, depth targets are reported as depths; colour targets that contain depths contain keys
 //          (rasterizer/rules/depth_key.h). The last entry is the published image.
+//          With several samples per pixel (RunInput::sampling) the samples' frames advance together: a pass is the same
+//          pass of every sample, its targets contain all samples, its counts are sums, and the published image is the
+//          resolved one. The targets of one pass are in memory at a time.
 // Tests    tests/tools/oracle/passes_test.cpp
 #pragma once
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -57,8 +61,11 @@ class TargetNames {
     std::vector<std::string> names_{"opaque_depth", "opaque_color"};
 };
 
-// Renders literally, without an audit, for an observer. Throws Refused.
-void observe(const RunInput& input, const peeling::Algorithm& algorithm, const pipeline::Observer& observer,
-             const pipeline::Alteration* alteration = nullptr);
+// Renders literally, without an audit, for one observer of each sample, and returns the published picture. The samples'
+// observers are called on threads of their own; all have been told of a counted step before any is told of the next.
+// Throws Refused.
+pipeline::Image observe(const RunInput& input, const peeling::Algorithm& algorithm,
+                        std::span<const pipeline::Observer> observers,
+                        const pipeline::Alteration* alteration = nullptr);
 
 }  // namespace strata::oracle

@@ -89,14 +89,14 @@ void show(const RunOptions& options, const Session& session, const peeling::Algo
                  {"query"}},
                 {}};
     oracle::ContactSheet sheet;
-    oracle::passes({session.scene.list, session.view, session.profile, options.render}, algorithm,
-                   [&](oracle::PassReport&& pass) {
-                       const std::string name = fmt::format("pass.{:03}.exr", pass.number);
-                       oracle::write_targets(path(name), pass.targets);
-                       sheet.add(pass);
-                       document["passes"].push_back(to_json(pass, prefix + name));
-                       table.rows.push_back(pass_row(pass));
-                   });
+    const oracle::RunInput input{session.scene.list, session.view, session.profile, options.render, sampling(options)};
+    oracle::passes(input, algorithm, [&](oracle::PassReport&& pass) {
+        const std::string name = fmt::format("pass.{:03}.exr", pass.number);
+        oracle::write_targets(path(name), pass.targets);
+        sheet.add(pass);
+        document["passes"].push_back(to_json(pass, prefix + name));
+        table.rows.push_back(pass_row(pass));
+    });
     scenes::write_image(path("contact.png"), {.color = sheet.image()});
     scenes::write_file(path("passes.json"), document.dump(2) + '\n');
     page.heading(algorithm.name);
@@ -113,6 +113,7 @@ void show(const RunOptions& options, const Session& session, const peeling::Algo
 // An algorithm that the profile refuses writes no files; the status is 2 if all are refused.
 int passes(PassesOptions& command) {
     RunOptions& options = command.run;
+    options.resolves = true;
     complete(options);
     check_outputs({{"--report", command.report, {".html"}}});
     if (options.output.empty()) throw CLI::ValidationError("-o is missing: the folder for the files");

@@ -229,6 +229,13 @@ void add_view_options(CLI::App& app, RunOptions& options) {
                to_background);
 }
 
+peeling::Multisampling sampling(const RunOptions& options) noexcept {
+    return {.samples = options.sample ? 1 : options.samples,
+            .resolve = options.resolve,
+            .loads = options.load_sample,
+            .composites = options.composite_sample};
+}
+
 void complete(RunOptions& options) {
     const bool is_piped = scenes::is_standard_output(options.output);
     if (options.format && !is_piped)

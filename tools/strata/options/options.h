@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "peeling/algorithms/algorithm.h"
+#include "peeling/multisampling.h"
 #include "peeling/render_options.h"
-#include "pipeline/formats/resolve.h"
-#include "pipeline/frame/sample_loads.h"
 #include "rasterizer/base/simd.h"
 #include "scenes/camera.h"
 #include "scenes/files/image_io.h"
@@ -94,6 +93,9 @@ void add_format_option(CLI::App& app, RunOptions& options, const std::string& he
 // Checks which options exclude each other, and fills in defaults that are lists. Both need all parsed options. Throws
 // CLI::ValidationError.
 void complete(RunOptions& options);
+
+// The samples that a command renders: one with --sample, or all.
+[[nodiscard]] peeling::Multisampling sampling(const RunOptions& options) noexcept;
 
 // The command that renders the same picture of one algorithm again, in a unique spelling. It contains every option on
 // which a bit depends and that was given or differs from its default, and files without their folder; it does not

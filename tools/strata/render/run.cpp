@@ -234,10 +234,7 @@ int run_algorithms(RunOptions& options, const Writer& write) {
     for (const peeling::Algorithm* algorithm : options.algorithms) check_memory(options, session, *algorithm);
     // One renderer is used for all algorithms, so geometry is transformed and set up once.
     peeling::SampledRenderer renderer(session.scene.list, session.view, session.profile, options.render,
-                                      {.samples = options.sample ? 1 : options.samples,
-                                       .resolve = options.resolve,
-                                       .loads = options.load_sample,
-                                       .composites = options.composite_sample});
+                                      sampling(options));
     std::vector<RunSummary> runs;
     for (const peeling::Algorithm* algorithm : options.algorithms) {
         scenes::set_interrupt_message(undone(options, runs.size()));

@@ -150,7 +150,7 @@ Survey survey(const oracle::RunInput& input, const peeling::Algorithm& algorithm
         .step = [&](const pipeline::Region&, const pipeline::StepEvent& event) { observing.step(event); },
         .stage = [&](const pipeline::Region&, const pipeline::StageEvent& event) { observing.stage(event); },
         .traced = [&](const pipeline::Region&, const pipeline::TraceEntry& entry) { observing.traced(entry); }};
-    oracle::observe(everything, algorithm, observer);
+    oracle::observe(everything, algorithm, {&observer, 1});
     return observing.finish();
 }
 
