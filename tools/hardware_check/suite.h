@@ -10,6 +10,7 @@ inline const Drawing unknown_name{std::nullopt, std::string{unknown_name_reason}
 // Each takes the name of a capture without folder and ending. Names come from files and are untrusted. Each throws
 // Refused if the profile lacks what the picture needs.
 Drawing draw_alpha_func(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_antialiasing(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_blend_surface(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_blend_tests(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_clear(std::string_view name, const pipeline::DeviceProfile& profile);
@@ -29,6 +30,7 @@ Drawing draw_stencil_func(std::string_view name, const pipeline::DeviceProfile& 
 Drawing draw_surface_clip(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_texture_perspective(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_texture_shadow_comparator(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_three_d_primitive(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_vertex_shader_rounding(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_viewport(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_w_buffering(std::string_view name, const pipeline::DeviceProfile& profile);

@@ -55,6 +55,23 @@ void add_fragment_suites(Archive& archive) {
         8);
 }
 
+// Surfaces of several samples per pixel.
+void add_sample_suites(Archive& archive) {
+    const Names created = with({"CreateSurfaceWith"}, {"Center1", "CenterCorner2", "SquareOffset4"});
+    add(archive, Outcome::drawn, "Antialiasing_tests", created, 3);
+    add(archive, Outcome::drawn, "Antialiasing_tests",
+        {"FBSurfaceWithCenter1", "FBSurfaceWithCenterCorner2", "AAOnThenOffCPUWrite", "CPUWriteIgnoresSurfaceConfig",
+         "FramebufferNotModifiedBySurfaceState", "NonAACPURoundTrip", "SurfaceStatesAreIndependent"},
+        7);
+    add(archive, Outcome::not_modelled, "Antialiasing_tests", {"GPUAAWriteAfterCPUWrite"}, 1);
+    const Names commands{"", "-inlinebuf", "-inlinearrays", "-inlineelements"};
+    const Names filled = with({"Triangles", "TriStrip", "TriFan", "Quads", "QuadStrip", "Polygon"}, commands);
+    add(archive, Outcome::drawn, "3D_primitive", with(filled, {"", "-ls"}), 48);
+    add(archive, Outcome::not_modelled, "3D_primitive", with(filled, {"-ps", "-ls-ps"}), 48);
+    const Names others = with({"Points", "Lines", "LineLoop", "LineStrip"}, commands);
+    add(archive, Outcome::not_modelled, "3D_primitive", with(others, {"", "-ls", "-ps", "-ls-ps"}), 64);
+}
+
 void add_depth_suites(Archive& archive) {
     const std::string zb = "_ZB", wide = "DepthFmt_";
     for (const std::string& end : {std::string{}, zb}) {
@@ -189,6 +206,7 @@ void add_texture_suites(Archive& archive) {
 Archive archive_names() {
     Archive archive;
     add_fragment_suites(archive);
+    add_sample_suites(archive);
     add_depth_suites(archive);
     add_geometry_suites(archive);
     add_range_suites(archive);
