@@ -27,6 +27,7 @@ PACKS = [
     ["hard:case=texture-coordinates-huge", "--profile", "geforce3", "--algorithm", "depth_units,a_buffer", "--size", "9x8"],
     ["planes:count=2", "--algorithm", "dual", "--size", "16x12", "--samples", "4", "--sample", "3", "--depth-order", "greater", "--clip-depth", "zero-to-one",
      "--vertex-path", "fused,double", "--sort", "shuffle:0.5,18446744073709551615", "--alpha", "0.1", "--color-space", "linear"],
+    ["planes:count=2", "--algorithm", "front_to_back,dual", "--size", "9x7", "--samples", "4", "--shading", "pixel", "--load-sample", "0", "--sample-coverage", "0.75"],
 ]
 WIDTHS = {"u1": 1, "u2": 2, "u4": 4, "i4": 4, "f2": 2, "f4": 4}
 faults = []

@@ -29,7 +29,6 @@ TEST_CASE("numbers of samples are rejected by name and --sample where it would h
          "--resolve goes with all samples of a picture"},
         {{"explain", "teapot", "--samples", "4", "--pixel", "3,3"},
          "--samples needs --sample here: a number from 0 to 3"},
-        {{"golden", "teapot", "--samples", "2", "-o", "pack"}, "--samples needs --sample here: a number from 0 to 1"},
         {{"render", "teapot", "--samples", "2", "--map", "ties", "-o", "m.png"},
          "--samples needs --sample here: a number from 0 to 1"},
     }));
@@ -88,6 +87,27 @@ TEST_CASE("passes of all samples have targets of all samples and end with the re
                 CHECK(target.at("samples") == (pass.at("kind") == "published" ? 1 : 4));
         CHECK(passes.back().at("targets").at(0).at("digest") == stats.at(0).at("digest").at("color"));
         CHECK(shell(folder, "rm -r p").status == 0);
+    }
+}
+
+TEST_CASE("a pack of all samples is the default of options and its command makes it again") {
+    const Folder folder;
+    for (const std::string more : {"--samples 2", "--samples 4 --shading pixel --interpolate centroid --load-sample 0",
+                                   "--samples 4 --alpha-to-coverage --sample-mask 14"}) {
+        const std::string options = " --size 24x18 -q --alpha 0.5 --algorithm front_to_back " + more;
+        CHECK(shell(folder, "strata golden teapot -o pack" + options).status == 0);
+        CHECK(shell(folder, "strata golden --check pack").status == 0);
+        CHECK(shell(folder, "strata render teapot --no-audit -o a.exr" + options).status == 0);
+        CHECK(shell(folder, "strata render pack --algorithm front_to_back -q --no-audit -o b.exr").status == 0);
+        CHECK(shell(folder, "strata compare a.exr b.exr --exact").status == 0);
+        const auto manifest = nlohmann::json::parse(shell(folder, "cat pack/manifest.json").out);
+        CHECK(shell(folder, manifest.at("command").get<std::string>() + " -q -o again").status == 0);
+        CHECK(shell(folder, "diff -r pack again").status == 0);
+        CHECK(shell(folder, "strata render --from b.exr -q --no-audit -o c.exr").status == 0);
+        CHECK(shell(folder, "strata compare a.exr c.exr --exact").status == 0);
+        CHECK(shell(folder, "strata compare pack again").status == 0);
+        CHECK(shell(folder, "strata passes pack -q -o p --algorithm front_to_back").status == 0);
+        CHECK(shell(folder, "rm -r pack again p a.exr b.exr c.exr").status == 0);
     }
 }
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "peeling/render.h"
+#include "peeling/sampled_renderer.h"
 #include "scenes/packs/new_folder.h"
 #include "tools/oracle/mistakes/suite_packs.h"
 #include "tools/strata/command.h"
@@ -51,11 +51,12 @@ oracle::Golden golden_of(RunOptions& options) {
                           .color_space = options.scene_options.color_space,
                           .profile = std::move(session.profile),
                           .options = options.render,
+                          .sampling = sampling(options),
                           .command = canonical_command("golden", options, options.algorithms)};
     golden.scene.own_view = session.view;
     peeling::RenderOptions tried = golden.options;
     tried.audit = false;
-    peeling::Renderer renderer{golden.scene.list, session.view, golden.profile, tried};
+    peeling::SampledRenderer renderer{golden.scene.list, session.view, golden.profile, tried, golden.sampling};
     for (const peeling::Algorithm* algorithm : options.algorithms) {
         const peeling::RenderResult result = renderer.render(*algorithm);
         if (result.outcome == peeling::Outcome::done)
@@ -111,6 +112,7 @@ int golden(GoldenOptions& options) {
     if (options.run.output.empty()) throw CLI::ValidationError("-o is missing: the folder for the pack");
     scenes::check_new_folder(options.run.output);
     if (options.suite) return write_suite(options);
+    options.run.resolves = true;
     complete(options.run);
     const oracle::Golden made = golden_of(options.run);
     if (made.algorithms.empty()) return 2;

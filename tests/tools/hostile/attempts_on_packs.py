@@ -14,6 +14,10 @@ READERS = (["scene", "pack"], ["render", "pack", "-o", "out.png"], ["golden", "-
 # `compare` reads only the expected results of a pack, not its scene.
 SCENE_READERS = [command for command in READERS if command[0] != "compare"]
 
+# The state of a frame of all samples, at points that no profile has.
+SAMPLING = {"interpolation": "sample", "samples": [{"x": 0, "y": 15}, {"x": 1, "y": 14}], "all": {"resolve": "box", "loads": "own", "composites": "own"},
+            "alpha_to_coverage": False, "coverage": None, "inverts_coverage": False, "mask": 255}
+
 
 @functools.cache
 def pack_of(program):
@@ -76,7 +80,9 @@ def add_to(attempt):
             attempt("pack", f"{what} for {'/'.join(map(str, keys))}", pack(set_to(value, *keys)),
                     *(c for c in commands if keys[0] == "results" and c[0] == "compare" or c[0] == "golden"), must_fail=True)
     for what, keys, value in (("a frame of 2^31 pixels a side", ("state", "width"), 2**31 - 1), ("samples without end", ("results", 0, "picture", "samples"), 2**31 - 1),
-                              ("passes without end", ("state", "max_passes"), 2**40), ("a texture that is not there", ("scene", "materials", 0, "texture"), 7),
+                              ("passes without end", ("state", "max_passes"), 2**40), ("a sampling that is empty", ("state", "sampling"), {}),
+                              ("samples at points of no device", ("state", "sampling"), SAMPLING), ("no samples at all", ("state", "sampling"), {**SAMPLING, "samples": []}),
+                              ("a texture that is not there", ("scene", "materials", 0, "texture"), 7),
                               ("a mesh that is not there", ("scene", "instances", 0, "mesh"), 2**32 - 1)):
         attempt("pack", what, pack(set_to(value, *keys)), ["compare", "pack", "pack"] if keys[0] == "results" else ["render", "pack", "-o", "out.png"], must_fail=True)
     for what, value in (("escapes", ESCAPES), ("markup", MARKUP), ("a megabyte", LONG)):

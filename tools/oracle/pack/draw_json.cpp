@@ -31,7 +31,10 @@ NumberArray rows(Element element, std::size_t columns, const Items& items, Fill 
 
 // PreparedLists as in Renderer, but without the light, which affects no position.
 peeling::PreparedLists lists_of(const RunInput& input) {
-    const rasterizer::RasterState raster = peeling::raster_state(input.options, input.profile);
+    rasterizer::RasterState raster = peeling::raster_state(input.options, input.profile);
+    // Of several samples the draws are those of the pixel's centre.
+    if (input.sampling.samples > 1)
+        raster.interpolation = rasterizer::Interpolation::sample, raster.sample_coverage = {};
     pipeline::View view = input.view;
     view.vertex_path = input.options.vertex_paths.first.value_or(view.vertex_path);
     const rasterizer::DepthRequest depth{input.options.depth_path.value_or(input.profile.raster.depth_path),

@@ -21,8 +21,9 @@ void derive(const Golden& golden, const scenes::PackFiles::Sink& sink) {
     files.add_text("profile.json", scenes::to_json(golden.profile));
     manifest["scene"] = scenes::scene_json(golden.scene, golden.color_space, files);
     manifest["view"] = scenes::view_json(*golden.scene.own_view);
-    manifest["state"] = state_json(golden.options);
-    manifest["draws"] = draws_json({golden.scene.list, *golden.scene.own_view, golden.profile, golden.options}, files);
+    manifest["state"] = state_json({golden.options, golden.sampling}, golden.profile);
+    manifest["draws"] =
+        draws_json({golden.scene.list, *golden.scene.own_view, golden.profile, golden.options, golden.sampling}, files);
     manifest["results"] = ordered_json::array();
     for (const peeling::Algorithm* algorithm : golden.algorithms)
         manifest["results"].push_back(result_json(golden, *algorithm, files));
@@ -45,7 +46,9 @@ Golden read_pack(const std::string& path) {
     golden.scene = scenes::load_pack(path, {.color_space = golden.color_space});
     const std::string profile = scenes::pack_profile(folder);
     golden.profile = scenes::parse_profile(scenes::read_text_file(profile), profile);
-    golden.options = read_state(manifest, file);
+    auto [options, sampling] = read_state(manifest, file, golden.profile);
+    golden.options = std::move(options);
+    golden.sampling = sampling;
     scenes::JsonReader top{manifest, file, ""};
     top.text("command", golden.command);
     const json& results = top.at("results");

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "peeling/render.h"
+#include "peeling/sampled_renderer.h"
 #include "pipeline/device/check.h"
 #include "tools/oracle/pack/draw_json.h"
 #include "tools/oracle/pack/target_json.h"
@@ -54,7 +54,7 @@ void add_layers(const RunInput& input, const peeling::Algorithm& algorithm, Targ
     options.audit = false;
     options.nearest_depth = true;
     options.keep_layers = algorithm.makes_layers;
-    peeling::Renderer renderer{input.list, input.view, input.profile, options};
+    peeling::SampledRenderer renderer{input.list, input.view, input.profile, options, input.sampling};
     peeling::RenderResult result = renderer.render(algorithm);
     if (result.refusal) throw pipeline::Refused{input.profile, *std::move(result.refusal)};
     object["depth"] = targets.write("", "depth", result.frame.depth);
@@ -75,7 +75,7 @@ void add_layers(const RunInput& input, const peeling::Algorithm& algorithm, Targ
 }  // namespace
 
 ordered_json result_json(const Golden& golden, const peeling::Algorithm& algorithm, scenes::PackFiles& files) {
-    const RunInput input{golden.scene.list, *golden.scene.own_view, golden.profile, golden.options};
+    const RunInput input{golden.scene.list, *golden.scene.own_view, golden.profile, golden.options, golden.sampling};
     const std::string folder = "expected/" + algorithm.name;
     TargetWriter targets{folder, files};
     ordered_json object{{"algorithm", algorithm.name}, {"order", nullptr}};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "pipeline/device/sample_points.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/packs/json_fields.h"
 
@@ -11,6 +12,8 @@ namespace strata::oracle {
 namespace {
 
 using peeling::RenderOptions;
+using pipeline::DeviceProfile;
+using pipeline::sample_points;
 using scenes::JsonReader;
 using scenes::JsonWriter;
 
@@ -47,20 +50,39 @@ void algorithm(Io& io, std::optional<peeling::AlgorithmOptions>& given) {
     });
 }
 
-// The part of the state that only a frame of one sample has, beside the sample's point.
+// The part of the state that only a frame of all samples has.
+struct AllSamples {
+    pipeline::Resolve resolve{};
+    pipeline::LoadedSample loads{}, composites{};
+    friend bool operator==(const AllSamples&, const AllSamples&) = default;
+};
+
+// The part of the state that only a frame of one sample has, beside the sample's point, or a frame of all samples.
 struct SampledState {
     rasterizer::Interpolation interpolation{};
-    std::vector<rasterizer::SamplePoint> points;  // of all samples, if the centroid or the coverage needs them
-    int number = 0;                               // of the frame's own sample
-    rasterizer::SampleCoverage coverage;
+    std::vector<rasterizer::SamplePoint> points{};  // of all samples; of a frame of one only if it needs them
+    std::optional<int> number{};                    // of the frame's own sample
+    std::optional<AllSamples> all{};
+    rasterizer::SampleCoverage coverage{};
     friend bool operator==(const SampledState&, const SampledState&) = default;
 };
 
-[[nodiscard]] SampledState sampled_state(const rasterizer::RasterState& raster) {
-    return {raster.interpolation,
-            {raster.samples.begin(), raster.samples.begin() + raster.sample_count},
-            raster.sample_number,
-            raster.sample_coverage};
+constexpr const char* sampling_field = "/state/sampling";
+
+// Empty where all are their defaults.
+[[nodiscard]] std::optional<SampledState> sampled_state(const PackState& state, const DeviceProfile& profile) {
+    const rasterizer::RasterState& raster = state.options.raster;
+    SampledState sampled{.interpolation = raster.interpolation, .coverage = raster.sample_coverage};
+    const peeling::Multisampling& sampling = state.sampling;
+    if (sampling.samples > 1) {
+        const auto points = sample_points(profile.sample_positions, sampling.samples);
+        sampled.points.assign(points.begin(), points.end());
+        sampled.all = {sampling.resolve, sampling.loads, sampling.composites};
+        return sampled;
+    }
+    sampled.points.assign(raster.samples.begin(), raster.samples.begin() + raster.sample_count);
+    sampled.number = raster.sample_number;
+    return sampled == SampledState{.number = 0} ? std::nullopt : std::optional{sampled};
 }
 
 template <class Io, class P>
@@ -69,14 +91,20 @@ void point_fields(Io& io, P& point) {
     io.whole("y", point.y, 0, 15);
 }
 
-// Left out where all are their defaults.
 template <class Io>
 void sampling(Io& io, std::optional<SampledState>& given) {
     io.if_any("sampling", given, [](auto& outer, const std::string& key, auto& state) {
         outer.nested(key, state, [](auto& inner, auto& s) {
             inner.choice("interpolation", s.interpolation);
             inner.list("samples", s.points, [](auto& each, auto& point) { point_fields(each, point); });
-            inner.whole("number", s.number, 0, 7);
+            inner.if_any("number", s.number, [](auto& one, const std::string& k, auto& v) { one.whole(k, v, 0, 7); });
+            inner.if_any("all", s.all, [](auto& one, const std::string& k, auto& v) {
+                one.nested(k, v, [](auto& fields, auto& all) {
+                    fields.choice("resolve", all.resolve);
+                    fields.choice("loads", all.loads);
+                    fields.choice("composites", all.composites);
+                });
+            });
             inner.flag("alpha_to_coverage", s.coverage.by_alpha);
             inner.optional("coverage", s.coverage.value,
                            [](auto& one, const std::string& k, auto& v) { one.real(k, v); });
@@ -86,17 +114,40 @@ void sampling(Io& io, std::optional<SampledState>& given) {
     });
 }
 
+// Of a frame of all samples: their points are those of the pack's profile.
+void take_all_samples(const SampledState& given, const std::string& file, const DeviceProfile& profile,
+                      PackState& state) {
+    if (state.options.raster.sample)
+        throw InputError(file, sampling_field, "'number', because the state has the field 'sample'", "'all'");
+    const auto points = sample_points(profile.sample_positions, static_cast<int>(given.points.size()));
+    if (points.empty() || !std::ranges::equal(points, given.points))
+        throw InputError(file, std::string{sampling_field} + "/samples",
+                         "the 2, 4 or 8 points of profile " + profile.name,
+                         std::to_string(given.points.size()) + " others");
+    state.sampling = {.samples = static_cast<int>(points.size()),
+                      .resolve = given.all->resolve,
+                      .loads = given.all->loads,
+                      .composites = given.all->composites};
+}
+
 // The samples' number is limited by the array; Renderer checks the rest.
-void take_sampled_state(const SampledState& given, const std::string& file, rasterizer::RasterState& raster) {
+void take_sampled_state(const SampledState& given, const std::string& file, const DeviceProfile& profile,
+                        PackState& state) {
+    rasterizer::RasterState& raster = state.options.raster;
     if (given.points.size() > raster.samples.size())
-        throw InputError(file, "/state/sampling/samples", "at most 8 points", std::to_string(given.points.size()));
-    if (given != SampledState{} && !raster.sample)
-        throw InputError(file, "/state/sampling", "a frame of one sample", "a state without the field 'sample'");
+        throw InputError(file, std::string{sampling_field} + "/samples", "at most 8 points",
+                         std::to_string(given.points.size()));
+    if (given.number.has_value() == given.all.has_value())
+        throw InputError(file, sampling_field, "either 'number', of one sample, or 'all'",
+                         given.all ? "both" : "neither");
     raster.interpolation = given.interpolation;
+    raster.sample_coverage = given.coverage;
+    if (given.all) return take_all_samples(given, file, profile, state);
+    if (!raster.sample)
+        throw InputError(file, sampling_field, "a frame of one sample", "a state without the field 'sample'");
     raster.sample_count = static_cast<int>(given.points.size());
     std::ranges::copy(given.points, raster.samples.begin());
-    raster.sample_number = given.number;
-    raster.sample_coverage = given.coverage;
+    raster.sample_number = *given.number;
 }
 
 template <class Io, class O>
@@ -169,7 +220,8 @@ void refuse(const char* field) { throw InputError("pack", field, "its default: a
 
 }  // namespace
 
-nlohmann::ordered_json state_json(const RenderOptions& options) {
+nlohmann::ordered_json state_json(const PackState& state, const DeviceProfile& profile) {
+    const RenderOptions& options = state.options;
     if (options.second_list != nullptr) refuse("second_list");
     if (options.second_depth_clamp) refuse("second_depth_clamp");
     if (options.window_origin != std::array<int, 2>{}) refuse("window_origin");
@@ -180,14 +232,14 @@ nlohmann::ordered_json state_json(const RenderOptions& options) {
     std::optional<peeling::AlgorithmOptions> given;
     if (options.algorithm != peeling::AlgorithmOptions{}) given = options.algorithm;
     algorithm(io, given);
-    std::optional<SampledState> sampled = sampled_state(options.raster);
-    if (*sampled == SampledState{}) sampled.reset();
+    std::optional<SampledState> sampled = sampled_state(state, profile);
     sampling(io, sampled);
     return std::move(io.object);
 }
 
-RenderOptions read_state(const nlohmann::json& manifest, const std::string& file) {
-    RenderOptions options;
+PackState read_state(const nlohmann::json& manifest, const std::string& file, const DeviceProfile& profile) {
+    PackState state;
+    RenderOptions& options = state.options;
     JsonReader top{manifest, file, ""};
     JsonReader io{top.at("state"), file, "/state"};
     fields(io, options);
@@ -196,9 +248,9 @@ RenderOptions read_state(const nlohmann::json& manifest, const std::string& file
     options.algorithm = given.value_or(peeling::AlgorithmOptions{});
     std::optional<SampledState> sampled;
     sampling(io, sampled);
-    if (sampled) take_sampled_state(*sampled, file, options.raster);
+    if (sampled) take_sampled_state(*sampled, file, profile, state);
     io.end();
-    return options;
+    return state;
 }
 
 }  // namespace strata::oracle

@@ -25,6 +25,19 @@ bool any_of_all(std::vector<T>& values, Change change) {
 }
 
 constexpr Simplification all_simplifications[] = {
+    {"loads of other samples",
+     [](Golden& g) {
+         const bool has_changed = becomes(g.sampling.loads, {});
+         return becomes(g.sampling.composites, {}) || has_changed;
+     }},
+    {"the samples of a pixel",
+     [](Golden& g) {
+         if (!becomes(g.sampling.samples, 1)) return false;
+         g.sampling = {};
+         g.options.raster.interpolation = {};
+         g.options.raster.sample_coverage = {};
+         return true;
+     }},
     {"the light", [](Golden& g) { return becomes(g.scene.list.light, {}); }},
     {"textures",
      [](Golden& g) { return any_of_all(g.scene.list.materials, [](Material& m) { return becomes(m.texture, -1); }); }},

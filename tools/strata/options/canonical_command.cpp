@@ -147,7 +147,8 @@ std::string canonical_command(const std::string& verb, const RunOptions& options
     add_machine(words, options);
     if (options.samples != 1) add(words, "--samples", fmt::format("{}", options.samples));
     if (options.shades_pixels) add(words, "--shading", "pixel");
-    if (options.interpolate == rasterizer::Interpolation::centroid) add(words, "--interpolate", "centroid");
+    if (options.shades_pixels && options.render.raster.interpolation == rasterizer::Interpolation::centroid)
+        add(words, "--interpolate", "centroid");
     if (options.load_sample != pipeline::LoadedSample::own)
         add(words, "--load-sample", name_of(loaded_samples, options.load_sample));
     if (options.composite_sample != pipeline::LoadedSample::own)

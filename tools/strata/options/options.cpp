@@ -136,6 +136,16 @@ void check_samples(const RunOptions& options) {
         throw CLI::ValidationError("--samples needs --sample here: a number from 0 to " + last);
 }
 
+// A pack of one sample keeps its own.
+void take_interpolation(RunOptions& options) {
+    using enum rasterizer::Interpolation;
+    rasterizer::Interpolation& where = options.render.raster.interpolation;
+    if (options.shades_pixels)
+        where = options.interpolate.value_or(where == sample ? centre : where);
+    else if (options.samples > 1)
+        where = sample;
+}
+
 void add_scene(CLI::App& app, const std::function<void(const std::string&)>& take) {
     app.add_option_function<std::string>("SCENE", take,
                                          "a .gltf, .glb, .obj, .ply, .stl or .off file, - for a glTF file from "
@@ -246,8 +256,7 @@ void complete(RunOptions& options) {
     if (options.keeps_no_fragments) options.render.fragment_memory = 0;
     if (options.algorithms.empty()) options.algorithms = to_algorithms(options.default_algorithm);
     check_samples(options);
-    if (options.shades_pixels)
-        options.render.raster.interpolation = options.interpolate.value_or(rasterizer::Interpolation::centre);
+    take_interpolation(options);
     if (options.orbit && !options.camera.empty()) {
         throw CLI::ValidationError("--orbit excludes --camera");
     }

@@ -1,5 +1,6 @@
 #include "tools/strata/options/pack_options.h"
 
+#include "scenes/files/profile_json.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/pack/state_json.h"
 
@@ -9,8 +10,16 @@ void take_pack_state(RunOptions& options, const std::string& scene) {
     if (scenes::is_procedural(scene) || !scenes::is_pack(scene)) return;
     const std::string folder = scenes::pack_folder(scene);
     const nlohmann::json manifest = scenes::read_manifest(folder);
-    options.render = oracle::read_state(manifest, folder + "/manifest.json");
     options.profile = scenes::pack_profile(folder);
+    const oracle::PackState state =
+        oracle::read_state(manifest, folder + "/manifest.json", scenes::load_profile(options.profile));
+    options.render = state.options;
+    options.samples = state.sampling.samples;
+    options.resolve = state.sampling.resolve;
+    options.load_sample = state.sampling.loads;
+    options.composite_sample = state.sampling.composites;
+    options.shades_pixels =
+        options.samples > 1 && options.render.raster.interpolation != rasterizer::Interpolation::sample;
     options.scene_options.color_space = scenes::color_space_of(folder, manifest);
     options.clip_depth = options.render.raster.clip_depth;
     options.depth_order = options.render.raster.depth_order;
