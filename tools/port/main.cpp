@@ -50,10 +50,21 @@ void check_sampled(const Options& options, const Pack& pack, const std::vector<s
                 "--samples: expected front_to_back, dual, weighted_average or linked_list, found " + name);
 }
 
-int run(const Options& options) {
+// A pack of all samples says how many, where programs run, and what they load, unless options do.
+void take_sampling(const PackSampling& pack, Options& options, SampleLoads& loads) {
+    if (pack.samples == 1 || options.samples > 1) return;
+    options.samples = pack.samples;
+    options.interpolation = pack.interpolation;
+    if (pack.loads == "zero") loads.geometry = "0";
+    if (pack.composites == "zero") loads.full_screen = "0";
+}
+
+int run(Options options) {
     const Pack pack = read_pack(options.pack);
     const std::vector<std::string> algorithms = chosen(options, pack);
     PortSettings settings = settings_with(options.mistakes);
+    take_sampling(pack.sampling, options, settings.sampled.loads);
+    const bool has_targets = options.samples == 1 || options.sample >= 0 || pack.sampling.samples > 1;
     const HeadlessContext context(options.driver, options.threads);
     if (options.samples > 1) {
         check_sampled(options, pack, algorithms);
@@ -75,11 +86,9 @@ int run(const Options& options) {
                              .background = pack.background,
                              .settings = settings};
         Candidate& candidate = candidates.emplace_back(Candidate{name, {}, {}});
-        const int passes =
-            make_job(name, input)
-                .draw(
-                    candidate.picture, options.max_passes,
-                    options.picture_only || (options.samples > 1 && options.sample < 0) ? nullptr : &candidate.record);
+        const int passes = make_job(name, input)
+                               .draw(candidate.picture, options.max_passes,
+                                     options.picture_only || !has_targets ? nullptr : &candidate.record);
         check_errors(name);
         fmt::print("{}: {} geometry passes\n", name, passes);
     }
@@ -96,7 +105,7 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--driver", o.driver, "llvmpipe, llvmpipe_sse (without fused multiply-add), softpipe, or hardware")
         ->check(CLI::IsMember(driver_names()));
     app.add_option("--threads", o.threads, "threads that rasterize (default 2)")->check(CLI::Range(1, 16));
-    app.add_option("--samples", o.samples, "samples per pixel (default 1)")->check(CLI::Range(1, 32));
+    app.add_option("--samples", o.samples, "samples per pixel (default: the pack's, or 1)")->check(CLI::Range(1, 32));
     app.add_option(
            "--interpolate", o.interpolation,
            "where geometry passes run their programs: once a sample, or once a pixel at its centre or centroid, "

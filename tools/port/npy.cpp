@@ -79,10 +79,12 @@ template std::vector<std::uint8_t> read_rows(const std::string&, const std::stri
 template std::vector<std::uint32_t> read_rows(const std::string&, const std::string&, std::size_t);
 
 void write_npy(const std::string& file, const Image& image) {
-    const std::string channels = image.format.channels > 1 ? fmt::format(", {}", image.format.channels) : "";
+    const std::string samples = image.samples > 1 ? fmt::format(", {}", image.samples) : "";
+    const std::string channels =
+        image.samples > 1 || image.format.channels > 1 ? fmt::format(", {}", image.format.channels) : "";
     std::string header("\x93NUMPY\x01\x00\x76\x00", words_at);  // 118 bytes of header text follow
-    header += fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}{}), }}", type_of(image.format),
-                          image.size.height, image.size.width, channels);
+    header += fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}{}{}), }}", type_of(image.format),
+                          image.size.height, image.size.width, samples, channels);
     header.resize(header_size - 1, ' ');
     header += '\n';
     std::ofstream stream(file, std::ios::binary);

@@ -23,7 +23,8 @@ struct Array {
 template <class T>
 [[nodiscard]] std::vector<T> read_rows(const std::string& file, const std::string& type, std::size_t width);
 
-// An image with the shape used in packs: (rows, columns) or (rows, columns, channels).
+// An image with the shape used in packs: (rows, columns), (rows, columns, channels), or of several samples (rows,
+// columns, samples, channels).
 void write_npy(const std::string& file, const Image& image);
 
 }  // namespace strata::port

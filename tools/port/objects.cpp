@@ -241,6 +241,20 @@ Image read_sample(GLuint texture, int sample, const Format& format, Size size) {
     return image;
 }
 
+Image read_samples(GLuint texture, const Format& format, Size size) {
+    const int samples = sampling().samples;
+    const auto pixel = static_cast<std::size_t>(format.channels * format.bytes);
+    Image all{format, size, std::vector<std::uint8_t>(size.area() * pixel * static_cast<std::size_t>(samples)),
+              samples};
+    for (int sample = 0; sample < samples; ++sample) {
+        const Image one = read_sample(texture, sample, format, size);
+        for (std::size_t i = 0; i < size.area(); ++i)
+            std::memcpy(&all.bytes[(i * static_cast<std::size_t>(samples) + static_cast<std::size_t>(sample)) * pixel],
+                        &one.bytes[i * pixel], pixel);
+    }
+    return all;
+}
+
 namespace {
 
 // A copy with one sample, by the driver's own resolve; of srgb8 in linear light. The caller holds a OneSample.

@@ -47,6 +47,7 @@ struct Image {
     Format format;
     Size size;
     std::vector<std::uint8_t> bytes;
+    int samples = 1;  // of each pixel, one after the other
 };
 
 // An OpenGL name that is passed to `destroy` at the end. The context must still be current then. A default handle owns
@@ -124,6 +125,8 @@ void bind(std::initializer_list<GLuint> textures);
 
 // One sample of a multisampled texture, independent of set_samples.
 [[nodiscard]] Image read_sample(GLuint texture, int sample, const Format& format, Size size);
+// All samples of a texture of set_samples.
+[[nodiscard]] Image read_samples(GLuint texture, const Format& format, Size size);
 
 // Replaces all samples of a colour by their resolve, as if the texture had one sample.
 void resolve_in_place(GLuint texture, const Format& format, Size size);

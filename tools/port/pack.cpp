@@ -89,6 +89,26 @@ void check_state(const Manifest& manifest) {
         manifest.refuse("/state/polygon_offset", "none: the port has no polygon offset", "one");
 }
 
+// Of a pack of one sample nothing: the caller names it.
+PackSampling sampling_of(const Manifest& manifest) {
+    const std::string place = "/state/sampling";
+    if (!manifest.json.contains(ordered_json::json_pointer(place + "/all"))) return {};
+    const ordered_json& state = manifest.at(place);
+    if (state.value("alpha_to_coverage", false) || !state.value("coverage", ordered_json()).is_null() ||
+        state.value("mask", 255) != 255)
+        manifest.refuse(place, "no sample coverage, mask or alpha to coverage", "some");
+    if (manifest.text(place + "/all/resolve") != "box")
+        manifest.refuse(place + "/all/resolve", "box", manifest.text(place + "/all/resolve"));
+    PackSampling sampling{static_cast<int>(manifest.at(place + "/samples").size()),
+                          manifest.text(place + "/interpolation"), manifest.text(place + "/all/loads"),
+                          manifest.text(place + "/all/composites")};
+    for (const char* const loads : {"/all/loads", "/all/composites"})
+        if (manifest.text(place + loads) == "resolved") manifest.refuse(place + loads, "own or zero", "resolved");
+    if (sampling.interpolation != "sample" && sampling.loads != "zero")
+        manifest.refuse(place + "/all/loads", "zero: programs that run once a pixel load sample 0", sampling.loads);
+    return sampling;
+}
+
 // Rejects materials for which the port has no shader.
 void check_material(const Manifest& manifest, std::uint32_t number) {
     const std::string place = fmt::format("/scene/materials/{}", number);
@@ -147,6 +167,7 @@ Pack read_pack(const std::string& folder) {
     for (std::size_t i = 0; i < 4; ++i) pack.background[i] = manifest.real("/state/background", i);
     pack.zero_to_one = choice(manifest, "/state/clip_depth", "minus_one_to_one", "zero_to_one");
     check_state(manifest);
+    pack.sampling = sampling_of(manifest);
     for (std::size_t i = 0; i < manifest.at("/draws").size(); ++i)
         append_draws(manifest, fmt::format("/draws/{}", i), pack.mesh);
     for (std::size_t i = 0; i < manifest.at("/results").size(); ++i)

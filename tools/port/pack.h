@@ -8,13 +8,20 @@
 
 namespace strata::port {
 
+// What a pack of all samples asks for.
+struct PackSampling {
+    int samples = 1;
+    std::string interpolation = "sample", loads = "own", composites = "own";
+};
+
 // The data that the port uses. Reading rejects every feature of a pack that the port cannot draw.
 struct Pack {
     Mesh mesh;
     Size size;
     TargetFormats formats;
     std::array<float, 4> background{0, 0, 0, 1};
-    bool zero_to_one = false;             // clip depths
+    bool zero_to_one = false;  // clip depths
+    PackSampling sampling{};
     std::vector<std::string> algorithms;  // the algorithms of its results
 };
 

@@ -3,11 +3,12 @@
 
     sampled.py --build build/release [--quick] [--driver llvmpipe_sse]
 
-Ten scenes in three sizes: every target after every pass of each sample shaded separately, by front_to_back, dual and weighted_average, and the
-resolved pictures; and the resolved pictures of programs that run once a pixel, at its centre or centroid, and load sample 0. Prints a table of
+Ten scenes in three sizes: every target after every pass of each sample shaded separately, by front_to_back, dual and weighted_average; packs of all
+samples, by `strata compare PACK CANDIDATE`; the resolved pictures; and the resolved pictures of programs that run once a pixel, at its centre or centroid, and load sample 0. Prints a table of
 the differences. Exit status 1 if there are any.
 """
 import argparse
+import json
 import pathlib
 import shutil
 import sys
@@ -68,6 +69,18 @@ def resolved(build, folder, words, profile, driver, shading):
     return wrong
 
 
+def all_at_once(build, folder, words, profile, driver, shading):
+    """The number of algorithms of a pack of all samples of which a target after a pass, or the picture, differs, or is missing."""
+    algorithms = ALGORITHMS if shading != "centroid" else ALGORITHMS[1:]  # as in resolved()
+    pack = packs.Pack(build, folder / "all", [*words, "--samples", SAMPLES, *SHADINGS[shading]], profile, algorithms)
+    candidate = folder / "candidate"
+    packs.run([build / "strata_port", pack.folder, "-o", candidate, "--driver", driver])
+    said = json.loads(packs.run([build / "strata", "compare", pack.folder, candidate, "--exact", "--json"], allowed=(0, 1)))
+    shutil.rmtree(pack.folder)
+    shutil.rmtree(candidate)
+    return sum(not one["equal"] or one["passes_compared"] != len(pack.results[one["algorithm"]]["passes"]) for one in said)
+
+
 def measure(build, words, profile, driver):
     """For one scene and size: the numbers of targets, of those that differ, and of pictures whose resolve differs."""
     found = {"targets": 0, "targets that differ": 0}
@@ -85,6 +98,7 @@ def measure(build, words, profile, driver):
             shutil.rmtree(pack.folder)
         for shading in SHADINGS:
             found[f"resolved, {shading}"] = resolved(build, folder, words, profile, driver, shading)
+            found[f"all samples, {shading}"] = all_at_once(build, folder, words, profile, driver, shading)
             shutil.rmtree(folder / "first")
             shutil.rmtree(folder / "resolved")
     return found
@@ -97,7 +111,8 @@ def main():
     parser.add_argument("--quick", action="store_true", help="two scenes in one size")
     options = parser.parse_args()
     scenes = dict(list(SCENES.items())[:2]) if options.quick else SCENES
-    keys = ["targets", "targets that differ", "pixels", "coverage", "depth", "order", "colour", *ALGORITHMS, *(f"resolved, {shading}" for shading in SHADINGS)]
+    keys = ["targets", "targets that differ", "pixels", "coverage", "depth", "order", "colour", *ALGORITHMS, 
+            *(f"{what}, {shading}" for what in ("resolved", "all samples") for shading in SHADINGS)]
     print("| scene | " + " | ".join(keys) + " |")
     wrong = 0
     with tempfile.TemporaryDirectory() as folder:

@@ -116,7 +116,7 @@ int front_to_back(const PeelTargets& t, int max_passes, Image& picture, Record* 
         show(t, "geometry", passes, drawn, record);
         if (left) blend_under(t);
         show(t, "full_screen", passes, {}, record);  // blended for an empty layer, too, which is neutral
-        if (record != nullptr && drawn > 0)
+        if (keeps_layers(record) && drawn > 0)
             record->layers.push_back(
                 {read_back(t.layer.name(), t.input.formats.color, t.input.size),
                  read_back(t.depth[t.nearest(passes)].name(), t.input.formats.depth, t.input.size)});

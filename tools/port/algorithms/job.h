@@ -46,7 +46,9 @@ struct Record {
     std::vector<PassReport> passes{};
     std::vector<std::array<Image, 2>> layers{};  // colour and depth, nearest first
 };
-// Does nothing without a record.
+// True if layers are recorded: not of all samples, because a depth of several samples has no resolve.
+[[nodiscard]] bool keeps_layers(const Record* record);
+// Does nothing without a record. Targets of several samples are read back with all of them, unless one is chosen.
 void show_pass(Record* record, Size size, const std::string& kind, std::initializer_list<NamedTexture> targets,
                std::optional<std::uint64_t> query = {});
 
