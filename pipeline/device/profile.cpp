@@ -106,6 +106,8 @@ DeviceProfile mesa() {
     p.max_viewport_px = 16384;
     p.max_samples = p.min_samples = 4;
     p.resolve = ResolveRule::single;
+    p.alpha_to_coverage = ShareRounding::up;
+    p.sample_coverage = ShareRounding::down;
     return p;
 }
 

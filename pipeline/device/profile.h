@@ -43,6 +43,8 @@ enum class Origin : std::uint8_t { upper_left, lower_left };
 // The sample positions within a pixel: as in Direct3D; or as NV20's modes are named, a corner and the centre, or a
 // square (fragment-stages.md 13.1).
 enum class SamplePositions : std::uint8_t { standard, nv20 };
+// How a share of n samples becomes a number of samples (fragment-stages.md 13.6).
+enum class ShareRounding : std::uint8_t { nearest, up, down };
 
 // A device. Everything that differs between devices is a field, and no code depends on the name (devices.md 1);
 // profile.cpp defines the built-in ones.
@@ -104,6 +106,8 @@ struct DeviceProfile {
     bool has_signed_blend = false;
     SamplePositions sample_positions = SamplePositions::standard;
     ResolveRule resolve = ResolveRule::codes_half_up;
+    ShareRounding alpha_to_coverage = ShareRounding::nearest;
+    ShareRounding sample_coverage = ShareRounding::nearest;
     // Limits (devices.md 7): colour targets per pass, texture units, the viewport's larger side in pixels, samples per
     // pixel, and the smallest supported number of samples above 1.
     int max_render_targets = 1;

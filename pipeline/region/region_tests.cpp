@@ -18,18 +18,26 @@ void Stages::cover_sample(const PassState& state, const FragmentBatch& batch, Ou
     const rasterizer::RasterState& raster = shared_.frame.transparent->geometry.state;
     const rasterizer::SampleCoverage& coverage = raster.sample_coverage;
     if (kind_ != PassKind::geometry || !shared_.statistics.counts || coverage == rasterizer::SampleCoverage{}) return;
-    // The samples of the least numbers, of a share of all to nearest; NaN has none.
-    const auto is_covered = [&](float share) {
-        const float limited = share > 0.0f ? std::min(share, 1.0f) : 0.0f;
-        const auto samples = static_cast<float>(raster.sample_count);
-        return raster.sample_number < static_cast<int>(limited * samples + 0.5f);
+    // The samples of the least numbers; NaN has none. The product is exact, for the number is a power of two.
+    const auto is_covered = [&](float share, ShareRounding rounding) {
+        const float samples = (share > 0.0f ? std::min(share, 1.0f) : 0.0f) * static_cast<float>(raster.sample_count);
+        const auto least = static_cast<float>(raster.sample_number);
+        switch (rounding) {
+            case ShareRounding::nearest: return samples >= least + 0.5f;
+            case ShareRounding::up: return samples > least;
+            case ShareRounding::down: return samples >= least + 1;
+        }
+        return false;  // unreachable: the enum is closed
     };
+    const DeviceProfile& profile = shared_.profile();
     const bool is_masked = (coverage.mask >> raster.sample_number & 1u) == 0;
-    const bool is_outside = coverage.value && is_covered(*coverage.value) == coverage.is_inverted;
+    const bool is_outside =
+        coverage.value && is_covered(*coverage.value, profile.sample_coverage) == coverage.is_inverted;
     const bool has_alpha = state.color[0].exists() && info(targets_.at(state.color[0]).format()).channels == 4;
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
         const bool is_in =
-            !is_masked && !is_outside && (!coverage.by_alpha || !has_alpha || is_covered(out.color[0][3][i]));
+            !is_masked && !is_outside &&
+            (!coverage.by_alpha || !has_alpha || is_covered(out.color[0][3][i], profile.alpha_to_coverage));
         out.alive[i] &= is_in ? ~0u : 0u;
     }
 }

@@ -37,7 +37,8 @@ constexpr std::size_t longest_name = 64, longest_description = 1000;
 // Fields that were added after the first profile files were written. If a file has no `base`, the profile that it
 // inherits from, and omits such a field, the field gets DeviceProfile's default, which describes the earlier behaviour.
 // All other fields are required there, so that no default of the program enters a user's profile.
-constexpr std::string_view later_fields[] = {"blend_storage",
+constexpr std::string_view later_fields[] = {"alpha_to_coverage",
+                                             "blend_storage",
                                              "clip_depth",
                                              "depth24",
                                              "depth_order",
@@ -58,6 +59,7 @@ constexpr std::string_view later_fields[] = {"blend_storage",
                                              "raster.weights",
                                              "raster.y_axis",
                                              "resolve",
+                                             "sample_coverage",
                                              "sample_positions"};
 
 [[nodiscard]] bool is_raster(const ProfileField& field) { return field.key.starts_with(raster_prefix); }

@@ -31,13 +31,14 @@ using strata::rasterizer::SampleCoverage;
 }
 
 // The number of samples of the middle pixel that something was drawn to, by their numbers.
-[[nodiscard]] std::vector<int> covered_samples(float alpha, int samples, const SampleCoverage& coverage) {
+[[nodiscard]] std::vector<int> covered_samples(float alpha, int samples, const SampleCoverage& coverage,
+                                               const char* profile = "geforce8") {
     const strata::pipeline::DrawList list = glass_of(alpha);
     RenderOptions options;
     options.width = options.height = 4;
     options.threads = 1;
     options.raster.sample_coverage = coverage;
-    SampledRenderer renderer{list, {}, *find_profile("geforce8"), options, {.samples = samples}};
+    SampledRenderer renderer{list, {}, *find_profile(profile), options, {.samples = samples}};
     std::vector<Image> colors;
     const RenderResult result = renderer.render(*find_algorithm("front_to_back"), {}, &colors);
     CHECK(result.outcome == strata::peeling::Outcome::done);
@@ -72,6 +73,14 @@ TEST_CASE("sample coverage and mask leave out the samples that they do not name"
     CHECK(covered_samples(0.5f, 4, {.mask = 0b1010}) == std::vector{1, 3});
     CHECK(covered_samples(0.5f, 4, {.value = 0.5f, .mask = 0b1010}) == std::vector{1});
     CHECK(covered_samples(0.5f, 4, {.by_alpha = true, .mask = 0b1110}) == std::vector{1});
+}
+
+TEST_CASE("llvmpipe rounds the share of alpha up and that of sample coverage down") {
+    for (int step = 1; step <= 32; ++step) {
+        const float share = static_cast<float>(step) / 32.0f;
+        CHECK(covered_samples(share, 4, {.by_alpha = true}, "llvmpipe") == first_samples((step * 4 + 31) / 32));
+        CHECK(covered_samples(0.5f, 4, {.value = share}, "llvmpipe") == first_samples(step * 4 / 32));
+    }
 }
 
 TEST_CASE("a sample that is masked out makes a peel end after one pass") {

@@ -71,6 +71,8 @@ constexpr Unprobed unprobed[]{
     {"raster.sample_divisor", "no scene has several samples per pixel"},
     {"sample_positions", "no scene has several samples per pixel"},
     {"resolve", "no scene has several samples per pixel"},
+    {"alpha_to_coverage", "no scene has several samples per pixel"},
+    {"sample_coverage", "no scene has several samples per pixel"},
 };
 
 }  // namespace

@@ -153,6 +153,8 @@ constexpr FieldOfDevices device_table[] = {
     {"resolve",
      {"codes_half_up", "codes_half_up", "codes_half_up", "codes_half_up", "single", "single", "single", "codes_half_up",
       "codes_half_up"}},
+    {"alpha_to_coverage", {"nearest", "nearest", "nearest", "nearest", "up", "up", "up", "nearest", "nearest"}},
+    {"sample_coverage", {"nearest", "nearest", "nearest", "nearest", "down", "down", "down", "nearest", "nearest"}},
     {"max_render_targets", {"1", "8", "8", "8", "8", "8", "8", "8", "8"}},
     {"max_texture_units", {"4", "16", "16", "16", "32", "32", "32", "32", "16"}},
     {"max_viewport_px", {"4096", "8192", "8192", "16384", "16384", "16384", "16384", "8192", "16384"}},
@@ -215,6 +217,8 @@ const std::vector<NamesOfField> choice_names{
     {"depth24", {"codes", "binary32"}},
     {"sample_positions", {"standard", "nv20"}},
     {"resolve", {"codes_half_up", "single"}},
+    {"alpha_to_coverage", {"nearest", "up", "down"}},
+    {"sample_coverage", {"nearest", "up", "down"}},
 };
 
 [[nodiscard]] const ProfileField* field_named(std::string_view key) {

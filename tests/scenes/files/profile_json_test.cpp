@@ -116,7 +116,8 @@ TEST_CASE("without a base every key of the first packs is required") {
 
 // The fields of profiles in the first packs of format 1; later fields are missing.
 TEST_CASE("missing later fields have the values of the behaviour before them singly and all together") {
-    const std::set<std::string_view> later{"blend_storage",
+    const std::set<std::string_view> later{"alpha_to_coverage",
+                                           "blend_storage",
                                            "clip_depth",
                                            "depth24",
                                            "depth_order",
@@ -137,6 +138,7 @@ TEST_CASE("missing later fields have the values of the behaviour before them sin
                                            "raster.weights",
                                            "raster.y_axis",
                                            "resolve",
+                                           "sample_coverage",
                                            "sample_positions"};
     DeviceProfile before;
     before.name = "old";
