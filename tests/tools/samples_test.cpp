@@ -27,8 +27,8 @@ TEST_CASE("numbers of samples are rejected by name and --sample where it would h
          "geforce3 with --samples 2"},
         {{"render", "teapot", "--samples", "2", "--sample", "0", "--resolve", "quincunx", "--profile", "geforce3"},
          "--resolve goes with all samples of a picture"},
-        {{"explain", "teapot", "--samples", "4", "--pixel", "3,3"},
-         "--samples needs --sample here: a number from 0 to 3"},
+        {{"explain", "teapot", "--samples", "4", "--pixel", "3,3", "--svg", "a.svg"},
+         "--svg goes with one sample: --sample N"},
         {{"render", "teapot", "--samples", "2", "--map", "ties", "-o", "m.png"},
          "--samples needs --sample here: a number from 0 to 1"},
     }));

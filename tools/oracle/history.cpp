@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <memory>
 
 #include "peeling/as_shown.h"
 #include "peeling/programs/programs.h"
+#include "pipeline/device/sample_points.h"
 #include "pipeline/region/region.h"
 #include "rasterizer/base/input_error.h"
 #include "tools/oracle/fragment_facts.h"
@@ -294,40 +296,89 @@ std::vector<History> empty_histories(const RunInput& input, const peeling::Algor
     return histories;
 }
 
+void check_pixels(const rasterizer::Rect& pixels, int width, int height) {
+    if (pixels.x0 < 0 || pixels.y0 < 0 || pixels.x1 > width || pixels.y1 > height || pixels.x0 >= pixels.x1 ||
+        pixels.y0 >= pixels.y1)
+        throw InputError("explain", "pixel", fmt::format("one from 0,0 to {},{}", width - 1, height - 1),
+                         fmt::format("{},{}", pixels.x0, pixels.y0));
+}
+
+// What the observer of one sample's frame fills.
+struct Recording {
+    Recording(const RunInput& input, const peeling::Algorithm& algorithm, const rasterizer::Rect& in_memory)
+        : histories{empty_histories(input, algorithm, in_memory)},
+          recorder{in_memory, input.options.width, algorithm.key, histories} {}
+    Recording(const Recording&) = delete;
+    Recording& operator=(const Recording&) = delete;
+
+    [[nodiscard]] pipeline::Observer observer() {
+        return {.named = [this](pipeline::Target target, std::string_view name) { recorder.name(target, name); },
+                .step =
+                    [this](const Region& region, const StepEvent& event) {
+                        format = region.frame().depth.format;
+                        recorder.step(region, event);
+                    },
+                .stage = [this](const Region& region, const StageEvent& event) { recorder.stage(region, event); },
+                .traced = [this](const Region&, const pipeline::TraceEntry& entry) { recorder.traced(entry); }};
+    }
+
+    // `input` is that of the sample's own frame.
+    [[nodiscard]] std::vector<History> finish(const RunInput& input, const peeling::Algorithm& algorithm,
+                                              const rasterizer::Rect& in_memory) && {
+        for (History& history : histories) {
+            history.depth_format = format;
+            history.is_reversed = input.options.raster.depth_order == rasterizer::DepthOrder::greater;
+        }
+        add_facts(input, algorithm, in_memory, histories);
+        const peeling::AsShown shown{input.options, input.profile};
+        for (History& history : histories) history.y = shown.row(history.y);
+        std::ranges::stable_sort(histories, {}, &History::y);
+        return std::move(histories);
+    }
+
+    std::vector<History> histories;
+    Recorder recorder;
+    pipeline::DepthFormat format{};
+};
+
 }  // namespace
 
 std::vector<History> explain(const RunInput& input, const peeling::Algorithm& algorithm,
                              const rasterizer::Rect& pixels) {
-    const peeling::AsShown shown{input.options, input.profile};
-    const rasterizer::Rect in_memory = shown.rect(pixels);
-    const int w = input.options.width, h = input.options.height;
-    if (pixels.x0 < 0 || pixels.y0 < 0 || pixels.x1 > w || pixels.y1 > h || pixels.x0 >= pixels.x1 ||
-        pixels.y0 >= pixels.y1)
-        throw InputError("explain", "pixel", fmt::format("one from 0,0 to {},{}", w - 1, h - 1),
-                         fmt::format("{},{}", pixels.x0, pixels.y0));
-    std::vector<History> histories = empty_histories(input, algorithm, in_memory);
-    Recorder recorder{in_memory, w, algorithm.key, histories};
+    check_pixels(pixels, input.options.width, input.options.height);
+    const rasterizer::Rect in_memory = peeling::AsShown{input.options, input.profile}.rect(pixels);
+    Recording recording{input, algorithm, in_memory};
     RunInput everything = input;
     everything.options.effects = pipeline::Effects::all;
-    pipeline::DepthFormat format{};
-    const pipeline::Observer observer{
-        .named = [&](pipeline::Target target, std::string_view name) { recorder.name(target, name); },
-        .step =
-            [&](const Region& region, const StepEvent& event) {
-                format = region.frame().depth.format;
-                recorder.step(region, event);
-            },
-        .stage = [&](const Region& region, const StageEvent& event) { recorder.stage(region, event); },
-        .traced = [&](const Region&, const pipeline::TraceEntry& entry) { recorder.traced(entry); }};
+    const pipeline::Observer observer = recording.observer();
     observe(everything, algorithm, {&observer, 1});
-    for (History& history : histories) {
-        history.depth_format = format;
-        history.is_reversed = input.options.raster.depth_order == rasterizer::DepthOrder::greater;
+    return std::move(recording).finish(input, algorithm, in_memory);
+}
+
+SampledHistory explain_samples(const RunInput& input, const peeling::Algorithm& algorithm, int x, int y) {
+    const rasterizer::Rect pixel{x, y, x + 1, y + 1};
+    check_pixels(pixel, input.options.width, input.options.height);
+    const rasterizer::Rect in_memory = peeling::AsShown{input.options, input.profile}.rect(pixel);
+    RunInput everything = input;
+    everything.options.effects = pipeline::Effects::all;
+    std::vector<std::unique_ptr<Recording>> recordings;
+    std::vector<pipeline::Observer> observers;
+    for (int sample = 0; sample < input.sampling.samples; ++sample) {
+        recordings.push_back(std::make_unique<Recording>(input, algorithm, in_memory));
+        observers.push_back(recordings.back()->observer());
     }
-    add_facts(input, algorithm, in_memory, histories);
-    for (History& history : histories) history.y = shown.row(history.y);
-    std::ranges::stable_sort(histories, {}, &History::y);
-    return histories;
+    const pipeline::Image picture = observe(everything, algorithm, observers);
+    SampledHistory result{.sampling = input.sampling, .format = picture.format};
+    for (std::size_t sample = 0; sample < recordings.size(); ++sample) {
+        RunInput own = input;
+        own.sampling = {};
+        pipeline::set_sample(own.options.raster, input.profile.sample_positions, input.sampling.samples, sample);
+        result.points.push_back(*own.options.raster.sample);
+        result.samples.push_back(std::move(*recordings[sample]).finish(own, algorithm, in_memory).at(0));
+        result.samples.back().sample = static_cast<int>(sample);
+    }
+    for (int c = 0; c < picture.channels(); ++c) result.resolved.push_back(picture.codes[picture.index(x, y, c)]);
+    return result;
 }
 
 std::vector<std::vector<int>> composited(const History& history) {

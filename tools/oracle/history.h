@@ -89,6 +89,7 @@ struct Line {
 struct History {
     int x = 0, y = 0;
     std::string algorithm{}, profile{};
+    std::optional<int> sample{};  // its number, of several
     pipeline::DepthFormat depth_format{};
     bool is_reversed = false;  // all depths are keys (rasterizer/rules/depth_key.h), where less is nearer
     std::vector<FragmentFact> fragments{};
@@ -96,9 +97,21 @@ struct History {
     std::vector<Line> lines{};
 };
 
-// The histories of a rectangle's pixels, row by row. InputError if it leaves the frame; throws Refused.
+// The histories of a rectangle's pixels, row by row, in a frame of one sample. InputError if it leaves the frame;
+// throws Refused.
 [[nodiscard]] std::vector<History> explain(const RunInput& input, const peeling::Algorithm& algorithm,
                                            const rasterizer::Rect& pixels);
+
+// The histories of a pixel's samples, whose frames advance together: counts of queries are of all samples. What a line
+// reads is what its own sample stores, whichever sample the program loads (Multisampling::loads).
+struct SampledHistory {
+    std::vector<History> samples{};
+    std::vector<rasterizer::SamplePoint> points{};
+    peeling::Multisampling sampling{};
+    pipeline::Format format{};
+    std::vector<std::uint32_t> resolved{};  // the pixel of the picture
+};
+[[nodiscard]] SampledHistory explain_samples(const RunInput& input, const peeling::Algorithm& algorithm, int x, int y);
 
 // The fragments of each composited layer, near to far: those taken at the near end in order, then those taken at the
 // far end, last first.

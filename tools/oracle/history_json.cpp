@@ -124,19 +124,34 @@ ordered_json json_of_fragment(const FragmentFact& f) {
 }
 
 ordered_json of_history(const History& history) {
-    ordered_json document{{"pixel", {history.x, history.y}},
-                          {"algorithm", history.algorithm},
-                          {"profile", history.profile},
-                          {"depth_format", pipeline::info(pipeline::target_format(history.depth_format)).name},
-                          {"reversed_depth", history.is_reversed},
-                          {"fragments", ordered_json::array()},
-                          {"opaque", ordered_json::array()},
-                          {"lines", ordered_json::array()},
-                          {"composited", composited(history)}};
+    ordered_json document{
+        {"pixel", {history.x, history.y}}, {"algorithm", history.algorithm}, {"profile", history.profile}};
+    if (history.sample) document["sample"] = *history.sample;
+    document["depth_format"] = pipeline::info(pipeline::target_format(history.depth_format)).name;
+    document["reversed_depth"] = history.is_reversed;
+    for (const char* const list : {"fragments", "opaque", "lines"}) document[list] = ordered_json::array();
+    document["composited"] = composited(history);
     for (const FragmentFact& fragment : history.fragments) document["fragments"].push_back(json_of_fragment(fragment));
     for (const FragmentFact& fragment : history.opaque) document["opaque"].push_back(json_of_fragment(fragment));
     for (const Line& line : history.lines) document["lines"].push_back(json_of_line(line));
     return document;
+}
+
+ordered_json of_pixel(const SampledHistory& history) {
+    ordered_json document{{"algorithm", history.samples.at(0).algorithm},
+                          {"resolve", word(history.sampling.resolve)},
+                          {"loads", word(history.sampling.loads)},
+                          {"composites", word(history.sampling.composites)},
+                          {"samples", ordered_json::array()},
+                          {"format", pipeline::info(history.format).name},
+                          {"picture", history.resolved}};
+    for (const rasterizer::SamplePoint& point : history.points)
+        document["samples"].push_back({{"x", point.x}, {"y", point.y}});
+    return document;
+}
+
+std::string as_text(const ordered_json& document) {
+    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace
@@ -146,7 +161,18 @@ std::string to_json(const History& history) { return of_history(history).dump();
 std::string to_json(std::span<const History> histories) {
     ordered_json document{{"histories", ordered_json::array()}, {"first_differences", first_differences(histories)}};
     for (const History& history : histories) document["histories"].push_back(of_history(history));
-    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
+    return as_text(document);
+}
+
+std::string to_json(std::span<const SampledHistory> histories) {
+    ordered_json document{{"histories", ordered_json::array()},
+                          {"pixels", ordered_json::array()},
+                          {"first_differences", first_differences(histories)}};
+    for (const SampledHistory& history : histories) {
+        document["pixels"].push_back(of_pixel(history));
+        for (const History& sample : history.samples) document["histories"].push_back(of_history(sample));
+    }
+    return as_text(document);
 }
 
 }  // namespace strata::oracle

@@ -12,6 +12,9 @@ namespace strata::oracle {
 [[nodiscard]] std::string to_json(const History& history);
 // A document with several histories and their differences.
 [[nodiscard]] std::string to_json(std::span<const History> histories);
+// A section for each sample, and the resolved pixel. In JSON a document with the histories of all samples.
+[[nodiscard]] std::string to_text(const SampledHistory& history);
+[[nodiscard]] std::string to_json(std::span<const SampledHistory> histories);
 // The per-pixel list of fragments, near at the top, and one column per algorithm: the fragments it took, from which
 // end, in which pass.
 [[nodiscard]] std::string to_svg(std::span<const History> histories);
@@ -19,5 +22,7 @@ namespace strata::oracle {
 // For each further algorithm, the first place where it composites other fragments than the first algorithm, as text;
 // and whether the images differ.
 [[nodiscard]] std::vector<std::string> first_differences(std::span<const History> histories);
+// Of each sample.
+[[nodiscard]] std::vector<std::string> first_differences(std::span<const SampledHistory> histories);
 
 }  // namespace strata::oracle

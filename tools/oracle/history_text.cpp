@@ -3,6 +3,7 @@
 
 #include <bit>
 
+#include "rasterizer/base/enum_values.h"
 #include "tools/oracle/history_report.h"
 
 namespace strata::oracle {
@@ -112,6 +113,32 @@ std::vector<std::string> first_differences(std::span<const History> histories) {
                     ? "; the picture has the same bits"
                     : fmt::format("; the picture has {} against {}", hex(picture(other)), hex(picture(first)));
         descriptions.push_back(std::move(text));
+    }
+    return descriptions;
+}
+
+std::string to_text(const SampledHistory& history) {
+    std::string text;
+    for (std::size_t s = 0; s < history.samples.size(); ++s)
+        text +=
+            fmt::format("sample {} at {},{} sixteenths of the pixel: ", s, history.points[s].x, history.points[s].y) +
+            to_text(history.samples[s]);
+    const auto word = [](auto value) { return enum_names<decltype(value)>.at(static_cast<std::size_t>(value)); };
+    const peeling::Multisampling& sampling = history.sampling;
+    if (sampling.is_joint())
+        text += fmt::format("programs load the sample: {} in geometry passes, {} in full-screen passes\n",
+                            word(sampling.loads), word(sampling.composites));
+    return text + fmt::format("the picture has {}: the {} resolve of {} samples\n", hex(history.resolved),
+                              word(sampling.resolve), history.samples.size());
+}
+
+std::vector<std::string> first_differences(std::span<const SampledHistory> histories) {
+    std::vector<std::string> descriptions;
+    for (std::size_t s = 0; !histories.empty() && s < histories[0].samples.size(); ++s) {
+        std::vector<History> of_sample;
+        for (const SampledHistory& history : histories) of_sample.push_back(history.samples.at(s));
+        for (const std::string& difference : first_differences(of_sample))
+            descriptions.push_back(fmt::format("sample {}: {}", s, difference));
     }
     return descriptions;
 }

@@ -34,6 +34,24 @@ std::optional<Pixel> to_pixel(std::string_view text) {
     return Pixel{*x, *y};
 }
 
+// The text or the document of all algorithms; `explain_one(input, algorithm)` returns an Explained. Writes --svg.
+template <class Explained, class ExplainOne>
+std::string explained(ExplainOptions& options, const ExplainOne& explain_one) {
+    const Session session = open_session(options.run);
+    std::vector<Explained> histories;
+    for (const peeling::Algorithm* algorithm : options.run.algorithms)
+        histories.push_back(explain_one(oracle::RunInput{session.scene.list, session.view, session.profile,
+                                                         options.run.render, sampling(options.run)},
+                                        *algorithm));
+    if constexpr (std::is_same_v<Explained, oracle::History>)
+        if (!options.svg.empty()) scenes::write_file(options.svg, oracle::to_svg(histories));
+    if (options.json) return oracle::to_json(histories);
+    std::string text;
+    for (const Explained& history : histories) text += oracle::to_text(history);
+    for (const std::string& message : oracle::first_differences(histories)) text += message + '\n';
+    return text;
+}
+
 int explain(ExplainOptions& options) {
     if (!options.candidate.empty()) {
         if (!options.svg.empty()) throw CLI::ValidationError("--svg", "expected no --candidate beside it");
@@ -41,6 +59,7 @@ int explain(ExplainOptions& options) {
         if (!options.pixel) throw CLI::ValidationError("--candidate", "expected --pixel X,Y beside it");
         return explain_candidate({options.run, options.candidate, x, y, options.json});
     }
+    options.run.resolves = true;
     complete(options.run);
     check_outputs({{"--svg", options.svg, {".svg"}}});
     const auto [x, y] = options.pixel.value_or(Pixel{});
@@ -49,21 +68,16 @@ int explain(ExplainOptions& options) {
         throw CLI::ValidationError("--pixel must be a pixel from 0,0 to " + std::to_string(render.width - 1) + "," +
                                    std::to_string(render.height - 1) +
                                    (options.pixel ? ", not " + std::to_string(x) + "," + std::to_string(y) : ""));
-    const Session session = open_session(options.run);
-    std::vector<oracle::History> histories;
-    for (const peeling::Algorithm* algorithm : options.run.algorithms)
-        histories.push_back(oracle::explain({session.scene.list, session.view, session.profile, options.run.render},
-                                            *algorithm, {x, y, x + 1, y + 1})
-                                .at(0));
-    if (!options.svg.empty()) scenes::write_file(options.svg, oracle::to_svg(histories));
-    if (options.json) {
-        print(oracle::to_json(histories));
+    if (options.run.samples > 1 && !options.run.sample) {
+        if (!options.svg.empty()) throw CLI::ValidationError("--svg goes with one sample: --sample N");
+        print(explained<oracle::SampledHistory>(options, [&](const oracle::RunInput& input, const auto& algorithm) {
+            return oracle::explain_samples(input, algorithm, x, y);
+        }));
         return 0;
     }
-    std::string text;
-    for (const oracle::History& history : histories) text += oracle::to_text(history);
-    for (const std::string& message : oracle::first_differences(histories)) text += message + '\n';
-    print(text);
+    print(explained<oracle::History>(options, [&](const oracle::RunInput& input, const auto& algorithm) {
+        return oracle::explain(input, algorithm, {x, y, x + 1, y + 1}).at(0);
+    }));
     return 0;
 }
 
