@@ -269,6 +269,7 @@ Command add_compare(CLI::App& root) {
     options->run.resolves = true;
     add_choice(*app, options->run.samples, "--samples", sample_counts,
                "samples per pixel of the port; the verdict is about the mean of what they composite (default 1)");
+    add_shading_options(*app, options->run);
     app->footer(
         "Examples:\n"
         "  strata render teapot --size 64x64 -o teapot.exr && strata compare teapot.exr teapot.exr\n"

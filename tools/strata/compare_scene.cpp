@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "peeling/render.h"
 #include "pipeline/device/check.h"
-#include "pipeline/device/sample_points.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/models/models.h"
 #include "scenes/packs/pack_scene.h"
@@ -18,12 +16,12 @@
 #include "tools/oracle/verdict/edits.h"
 #include "tools/oracle/verdict/form.h"
 #include "tools/oracle/verdict/report.h"
-#include "tools/oracle/verdict/resolved.h"
 #include "tools/oracle/verdict/sample.h"
 #include "tools/oracle/verdict/verdict.h"
 #include "tools/strata/compare_pages.h"
 #include "tools/strata/other_profile.h"
 #include "tools/strata/render/run.h"
+#include "tools/strata/samples_verdict.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -149,21 +147,11 @@ namespace {
 
 // The verdict on a picture with several samples per pixel.
 int compare_resolved(const SceneQuestion& question, const Session& session, const oracle::Target& colors) {
-    using oracle::verdict::SceneFragments;
-    if (const auto lacking = pipeline::check_multisampling(session.profile, question.run.samples))
-        throw pipeline::Refused{session.profile, *lacking};
-    std::vector<std::unique_ptr<SceneFragments>> samples;
-    for (int number = 0; number < question.run.samples; ++number) {
-        peeling::RenderOptions options = question.run.render;
-        pipeline::set_sample(options.raster, session.profile.sample_positions, question.run.samples,
-                             static_cast<std::size_t>(number));
-        samples.push_back(std::make_unique<SceneFragments>(
-            oracle::RunInput{session.scene.list, session.view, session.profile, options},
-            std::numeric_limits<std::uint64_t>::max()));
-    }
-    const auto found = oracle::verdict::judge_resolved(samples, oracle::verdict::Colors{colors});
-    print(question.json ? to_json(found, colors.width) : with_painted_verdicts(to_text(found, colors.width)));
-    return found.is_right() ? 0 : 1;
+    const oracle::RunInput input{session.scene.list, session.view, session.profile, question.run.render,
+                                 sampling(question.run)};
+    const SamplesVerdict verdict = judge_samples(input, {colors, question.is_form_stated, question.has_alpha});
+    print(question.json ? to_json(verdict) : with_painted_verdicts(to_text(verdict)));
+    return verdict.found.is_right() ? 0 : 1;
 }
 
 }  // namespace

@@ -42,10 +42,27 @@ Stack with_alpha_as_red(Stack stack) {
     return stack;
 }
 
+}  // namespace
+
+AlphaReach::AlphaReach(const Hypothesis& colors) : compositor_{loosened(colors)}, error_{error_of(colors)} {}
+
+Interval AlphaReach::with_error(const Interval& alpha, const Stack& stack) const {
+    const double error = static_cast<double>(stack.layers.size() + 1) * error_;
+    return {alpha.low - error, alpha.high + error};
+}
+
+Interval AlphaReach::of(const Stack& stack) const { return with_error(compositor_.reach(stack)[3], stack); }
+
+Interval AlphaReach::weighted_by_itself(const Stack& stack) const {
+    return with_error(compositor_.reach(with_alpha_as_red(stack))[0], stack);
+}
+
+namespace {
+
 class AlphaChecker {
   public:
     AlphaChecker(const SceneFragments& scene, const Colors& candidate, const Hypothesis& colors)
-        : scene_{scene}, candidate_{candidate}, compositor_{loosened(colors)}, error_{error_of(colors)} {}
+        : scene_{scene}, candidate_{candidate}, reach_{colors} {}
 
     // The pixels with another alpha, ascending; at most `most` per tile.
     [[nodiscard]] std::vector<std::uint32_t> wrong(const Alternative& alternative, std::size_t most) const {
@@ -83,16 +100,12 @@ class AlphaChecker {
         const double given = candidate_.alpha_at(list.x, list.y);
         const double alpha = mistake == AlphaMistake::inverted ? 1 - given : given;
         const bool is_weighted = mistake == AlphaMistake::weighted_by_itself;
-        const Interval reach =
-            is_weighted ? compositor_.reach(with_alpha_as_red(stack))[0] : compositor_.reach(stack)[3];
-        const double error = static_cast<double>(stack.layers.size() + 1) * error_;
-        return alpha >= reach.low - error && alpha <= reach.high + error;
+        return (is_weighted ? reach_.weighted_by_itself(stack) : reach_.of(stack)).holds(alpha);
     }
 
     const SceneFragments& scene_;
     const Colors& candidate_;
-    Compositor compositor_;
-    double error_;
+    AlphaReach reach_;
 };
 
 // The candidate's alpha where nothing is drawn, if it is a single value.
@@ -113,12 +126,16 @@ std::optional<float> seen_alpha(const SceneFragments& scene, const Colors& candi
     return alpha && is_one ? std::optional{static_cast<float>(*alpha)} : std::nullopt;
 }
 
+}  // namespace
+
 bool is_everywhere(const Colors& candidate, double alpha) {
     for (int y = 0; y < candidate.height(); ++y)
         for (int x = 0; x < candidate.width(); ++x)
             if (candidate.alpha_at(x, y) != alpha) return false;
     return true;
 }
+
+namespace {
 
 void name_mistake(const SceneFragments& scene, const Colors& candidate, const AlphaChecker& checker,
                   AlphaChecked& found) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/oracle/verdict/composite.h"
 #include "tools/oracle/verdict/hypothesis.h"
 
 namespace strata::oracle::verdict {
@@ -40,8 +41,26 @@ struct AlphaChecked {
     std::vector<std::uint32_t> wrong_pixels{};  // row-major, ascending
 };
 
+// The alpha that layers can leave, by a hypothesis about colours, with an error of one code per blend.
+class AlphaReach {
+  public:
+    explicit AlphaReach(const Hypothesis& colors);
+    [[nodiscard]] Interval of(const Stack& stack) const;
+    // If alpha is blended by SRC_ALPHA.
+    [[nodiscard]] Interval weighted_by_itself(const Stack& stack) const;
+
+  private:
+    [[nodiscard]] Interval with_error(const Interval& alpha, const Stack& stack) const;
+
+    Compositor compositor_;
+    double error_;
+};
+
 // `colors`: the hypothesis under which the picture's colours are right.
 [[nodiscard]] AlphaChecked check_alpha(const SceneFragments& scene, const Colors& candidate, const Hypothesis& colors);
+
+// True if the candidate has this alpha in every pixel.
+[[nodiscard]] bool is_everywhere(const Colors& candidate, double alpha);
 
 // A sentence about alpha; "" if `is_told` is false.
 [[nodiscard]] std::string describe(const AlphaChecked& alpha);

@@ -159,6 +159,7 @@ Compositor::Operand Compositor::operand(const Means& means, const Layer& layer, 
     const bool has_codes = means.blend.has_codes;
     const Source source = means.end.source;
     Operand o;
+    o.color[3] = Interval::of(1);
     const double slack = means.slack + layer.slack + (is_moved ? layer.spread + last_places : 0);
     const auto given = [&](float v) {
         Interval x = Interval::of(v);
@@ -175,13 +176,11 @@ Compositor::Operand Compositor::operand(const Means& means, const Layer& layer, 
     if (layer.is_premultiplied) {
         for (std::size_t c = 0; c < 3; ++c) o.color[c] = stored(given(layer.color[c]));
         o.alpha = stored(given(layer.color[3]));
-        o.color[3] = Interval::of(1);
         o.is_premultiplied = true;
         return o;
     }
     const Interval alpha = clamped(given(layer.color[3]));
     o.alpha = clamped(stored(alpha));
-    o.color[3] = Interval::of(1);
     o.is_premultiplied = source == Source::premultiplied || source == Source::premultiplied_either_way ||
                          source == Source::premultiplied_truncated;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -199,8 +198,9 @@ Compositor::Operand Compositor::operand(const Means& means, const Layer& layer, 
             product = product.widened(product.magnitude() * 0x1p-23);
         }
         // A program multiplies before its result is clamped: interpolation beyond an edge may exceed 1.
-        if (has_codes && (layer.color[c] > 1 || layer.color[c] < 0))
-            product = hull(product, Interval::of(layer.color[c]).widened(slack) * alpha);
+        if (has_codes && (std::max(layer.color[c], layer.color[3]) > 1 || layer.color[c] < 0))
+            product =
+                hull(product, Interval::of(layer.color[c]).widened(slack) * hull(alpha, Interval::of(layer.color[3])));
         o.color[c] = stored(product);
     }
     return o;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <mutex>
 #include <nlohmann/json.hpp>
 
@@ -33,8 +34,7 @@ bool is_at_edge(const ResolvedPixel& pixel) {
                                 [&](const PixelList& list) { return has_same_fragments(list, pixel.lists[0]); });
 }
 
-std::vector<ResolvedPixel> pixels_of(const std::vector<std::unique_ptr<SceneFragments>>& samples,
-                                     const Colors& candidate) {
+std::vector<ResolvedPixel> pixels_of(const Samples& samples, const Colors& candidate) {
     const auto width = static_cast<std::size_t>(candidate.width());
     std::vector<ResolvedPixel> pixels(width * static_cast<std::size_t>(candidate.height()));
     for (const auto& sample : samples) {
@@ -71,8 +71,11 @@ double unit_of(Storage storage) {
 // A hypothesis about the samples, and the picture's storage.
 class Resolve {
   public:
-    Resolve(const Hypothesis& hypothesis, Storage picture)
-        : compositor_{hypothesis}, unit_{unit_of(picture)}, is_float_{!has_codes(picture)} {}
+    Resolve(const Hypothesis& hypothesis, const Colors& candidate)
+        : compositor_{hypothesis},
+          unit_{unit_of(storage_of(candidate.code()))},
+          codes_{candidate.use().is_divided ? 1 : 0.5},
+          is_float_{!has_codes(storage_of(candidate.code()))} {}
 
     // The mean of the samples, before the resolve stores it.
     [[nodiscard]] std::array<Interval, 3> mean(const std::vector<Stack>& samples) const {
@@ -86,11 +89,13 @@ class Resolve {
         return sum;
     }
     [[nodiscard]] bool holds(const std::array<Interval, 3>& mean, const std::array<double, 4>& value) const {
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double error = is_float_ ? unit_ * std::max(mean[c].magnitude(), 0x1p-14) : unit_ * (0.5 + 0x1p-12);
-            if (!mean[c].widened(error).holds(value[c])) return false;
-        }
+        for (std::size_t c = 0; c < 3; ++c)
+            if (!stored(mean[c]).holds(value[c])) return false;
         return true;
+    }
+    // The values that the resolve may store.
+    [[nodiscard]] Interval stored(const Interval& mean) const {
+        return mean.widened(is_float_ ? unit_ * std::max(mean.magnitude(), 0x1p-14) : unit_ * (codes_ + 0x1p-12));
     }
     [[nodiscard]] double width(const std::array<Interval, 3>& mean) const {
         double widest = 0;
@@ -101,6 +106,7 @@ class Resolve {
   private:
     Compositor compositor_;
     double unit_;
+    double codes_;  // the error of a stored code: half of one, and another half if it was divided by alpha
     bool is_float_;
 };
 
@@ -160,6 +166,11 @@ std::string first_line(const ResolvedVerdict& v) {
             "right: the mean of the samples at all {} pixels, {} of them at edges; intervals of at most "
             "{:.2g} codes",
             v.pixels, v.at_edges, v.possible);
+    if (v.wrong_pixels.empty())
+        return fmt::format(
+            "wrong: alpha is not the mean of what the layers of the samples leave at {} of {} pixels; "
+            "the colours are right",
+            v.alpha.wrong_pixels.size(), v.pixels);
     return fmt::format("wrong: {} of {} pixels are not the mean of right samples{}", v.wrong_pixels.size(), v.pixels,
                        v.wrong_at_edges == v.wrong_pixels.size()
                            ? ", edges only: the samples of each have different fragments"
@@ -177,28 +188,30 @@ struct SamplesAccount {
     std::size_t wrong = 0;  // of the pixels by which it was chosen
 };
 
-SamplesAccount closest(const std::vector<Hypothesis>& all, Storage picture,
-                       const std::vector<const ResolvedPixel*>& pixels, StackMaker& maker) {
-    SamplesAccount account;
-    Cost best{.wrong = pixels.size() + 1};
+// Empty if every hypothesis has more wrong pixels than `most_wrong`.
+std::optional<SamplesAccount> closest(const std::vector<Hypothesis>& all, const Colors& candidate,
+                                      const std::vector<const ResolvedPixel*>& pixels, StackMaker& maker,
+                                      std::size_t most_wrong) {
+    std::optional<SamplesAccount> account;
+    Cost best{.wrong = most_wrong + 1};
     std::vector<std::vector<Stack>> previous;
     for (std::size_t n = 0; n < ties_count; ++n) {
         std::vector<std::vector<Stack>> stacks;
         for (const ResolvedPixel* pixel : pixels) stacks.push_back(stacks_of(*pixel, ties_number(n), maker));
         if (stacks == previous) continue;  // no fragments have equal depths
         for (const Hypothesis& h : all) {
-            const Cost cost = cost_of(Resolve{h, picture}, stacks, pixels, best);
-            if (cost < best) best = cost, account = {h, ties_number(n), cost.wrong};
+            const Cost cost = cost_of(Resolve{h, candidate}, stacks, pixels, best);
+            if (cost < best) best = cost, account = SamplesAccount{h, ties_number(n), cost.wrong};
         }
         previous = std::move(stacks);
     }
     return account;
 }
 
-ResolvedVerdict checked(const SamplesAccount& account, Storage picture, const std::vector<ResolvedPixel>& pixels,
-                        StackMaker& maker) {
+ResolvedVerdict checked(const SamplesAccount& account, const Colors& candidate,
+                        const std::vector<ResolvedPixel>& pixels, StackMaker& maker) {
     ResolvedVerdict verdict{.hypothesis = account.hypothesis, .pixels = pixels.size()};
-    const Resolve resolve{account.hypothesis, picture};
+    const Resolve resolve{account.hypothesis, candidate};
     for (const ResolvedPixel& pixel : pixels) {
         const bool at_edge = is_at_edge(pixel);
         verdict.at_edges += at_edge ? 1 : 0;
@@ -211,38 +224,90 @@ ResolvedVerdict checked(const SamplesAccount& account, Storage picture, const st
     return verdict;
 }
 
+AlphaChecked checked_alpha(const SamplesAccount& account, const Colors& candidate,
+                           const std::vector<ResolvedPixel>& pixels, StackMaker& maker, const Setting& setting) {
+    AlphaChecked found{.background = setting.cleared[3], .is_told = setting.cleared[3] < 1};
+    if (!candidate.has_alpha()) return found;
+    const AlphaReach reach{account.hypothesis};
+    const Resolve resolve{account.hypothesis, candidate};
+    const int width = candidate.width();
+    for (const ResolvedPixel& pixel : pixels) {
+        Interval sum{};
+        for (const Stack& stack : stacks_of(pixel, account.ties, maker)) sum = sum + reach.of(stack);
+        const Interval mean = sum * Interval::of(1 / static_cast<double>(pixel.lists.size()));
+        const int number = static_cast<int>(pixel.number);
+        if (!resolve.stored(mean).holds(candidate.alpha_at(number % width, number / width)))
+            found.wrong_pixels.push_back(pixel.number);
+    }
+    found.state = found.wrong_pixels.empty()    ? AlphaState::right
+                  : is_everywhere(candidate, 1) ? AlphaState::opaque
+                                                : AlphaState::wrong;
+    if (found.state == AlphaState::wrong)
+        found.is_told = true;
+    else
+        found.wrong_pixels.clear();
+    return found;
+}
+
 }  // namespace
 
-// The hypothesis is chosen by some of the pixels, then again with some of those that it does not explain.
-ResolvedVerdict judge_resolved(const std::vector<std::unique_ptr<SceneFragments>>& samples, const Colors& candidate) {
+namespace {
+
+// The hypothesis is chosen by some of the pixels, then again with some of those that it does not explain. Empty if
+// every one has more than `most_wrong` wrong pixels of the first.
+std::optional<ResolvedVerdict> judged(const Samples& samples, const Colors& candidate,
+                                      const std::vector<std::uint32_t>& first, std::size_t most_wrong) {
     constexpr std::size_t few = 64, few_added = 32;
     constexpr int most_tries = 6;
-    const Storage picture = storage_of(candidate.code());
     const std::vector<ResolvedPixel> pixels = pixels_of(samples, candidate);
-    const std::vector<Hypothesis> all = hypotheses(picture);
+    const std::vector<Hypothesis> all = hypotheses(storage_of(candidate.code()));
     std::vector<const ResolvedPixel*> some = deepest(pixels, few);
+    const auto add_some = [&](const std::vector<std::uint32_t>& numbers) {
+        const std::size_t step = numbers.size() / few_added + 1;
+        for (std::size_t k = 0; k < numbers.size(); k += step) some.push_back(&pixels[numbers[k]]);
+    };
+    add_some(first);
     StackMaker maker{samples[0]->setting()};
-    SamplesAccount account = closest(all, picture, some, maker);
-    ResolvedVerdict best = checked(account, picture, pixels, maker);
+    std::optional<SamplesAccount> account = closest(all, candidate, some, maker, std::min(most_wrong, some.size()));
+    if (!account) return std::nullopt;
+    ResolvedVerdict best = checked(*account, candidate, pixels, maker);
     // If no hypothesis explains these pixels, none explains the picture.
-    for (int i = 1; i < most_tries && account.wrong == 0 && !best.is_right(); ++i) {
-        const std::vector<std::uint32_t>& wrong = best.wrong_pixels;
-        const std::size_t step = wrong.size() / few_added + 1;
-        for (std::size_t k = 0; k < wrong.size(); k += step) some.push_back(&pixels[wrong[k]]);
-        account = closest(all, picture, some, maker);
-        ResolvedVerdict next = checked(account, picture, pixels, maker);
-        if (next.wrong_pixels.size() < wrong.size()) best = std::move(next);
+    for (int i = 1; i < most_tries && account->wrong == 0 && !best.is_right(); ++i) {
+        add_some(best.wrong_pixels);
+        account = closest(all, candidate, some, maker, some.size());
+        ResolvedVerdict next = checked(*account, candidate, pixels, maker);
+        if (next.wrong_pixels.size() < best.wrong_pixels.size()) best = std::move(next);
     }
+    if (best.is_right()) best.alpha = checked_alpha(*account, candidate, pixels, maker, samples[0]->setting());
     return best;
+}
+
+}  // namespace
+
+ResolvedVerdict judge_resolved(const Samples& samples, const Colors& candidate) {
+    return *judged(samples, candidate, {}, std::numeric_limits<std::size_t>::max());
+}
+
+std::optional<ResolvedVerdict> right_resolved(const Samples& samples, const Colors& candidate,
+                                              const std::vector<std::uint32_t>& doubtful) {
+    auto verdict = judged(samples, candidate, doubtful, 0);
+    if (verdict && !verdict->is_right()) verdict.reset();
+    return verdict;
+}
+
+const std::vector<std::uint32_t>& wrong_pixels(const ResolvedVerdict& v) {
+    return v.wrong_pixels.empty() ? v.alpha.wrong_pixels : v.wrong_pixels;
 }
 
 std::string to_text(const ResolvedVerdict& v, int width) {
     std::string text = first_line(v) + '\n';
-    text += fmt::format("  {}{}\n", v.is_right() ? "" : "closest: ", describe(v.hypothesis));
-    if (v.is_right()) return text;
+    const std::vector<std::uint32_t>& wrong = oracle::verdict::wrong_pixels(v);
+    text += fmt::format("  {}{}\n", v.wrong_pixels.empty() ? "" : "closest: ", describe(v.hypothesis));
+    if (v.is_right() && v.alpha.is_told) text += fmt::format("  {}\n", describe(v.alpha));
+    if (wrong.empty()) return text;
     const auto columns = static_cast<std::uint32_t>(width);
-    text += fmt::format("  the first wrong pixel is {},{}\n", v.wrong_pixels[0] % columns, v.wrong_pixels[0] / columns);
-    return text + "  strata diagnose --samples names mistakes of multisampling\n";
+    text += fmt::format("  the first wrong pixel is {},{}\n", wrong[0] % columns, wrong[0] / columns);
+    return text + "  strata diagnose, with the same --samples, names known mistakes\n";
 }
 
 std::string to_json(const ResolvedVerdict& v, int width) {
@@ -254,10 +319,13 @@ std::string to_json(const ResolvedVerdict& v, int width) {
                                     {"wrong_at_edges", v.wrong_at_edges},
                                     {"hypothesis", describe(v.hypothesis)},
                                     {"possible", v.possible},
+                                    {"alpha", name(v.alpha.state)},
+                                    {"wrong_alpha", v.alpha.wrong_pixels.size()},
                                     {"first_wrong", nlohmann::ordered_json::array()}};
     const auto columns = static_cast<std::uint32_t>(width);
-    for (std::size_t i = 0; i < std::min<std::size_t>(16, v.wrong_pixels.size()); ++i)
-        document["first_wrong"].push_back({v.wrong_pixels[i] % columns, v.wrong_pixels[i] / columns});
+    const std::vector<std::uint32_t>& wrong = oracle::verdict::wrong_pixels(v);
+    for (std::size_t i = 0; i < std::min<std::size_t>(16, wrong.size()); ++i)
+        document["first_wrong"].push_back({wrong[i] % columns, wrong[i] / columns});
     return document.dump(2) + '\n';
 }
 

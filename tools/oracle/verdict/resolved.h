@@ -3,14 +3,17 @@
 //
 // Rule     A pixel is right if its value is in the mean of the intervals that the right structure has at its samples,
 //          with half a code of the resolve. One hypothesis and one rule for equal depths must hold for the whole
-//          picture. Samples are stored in the picture's format or in floats. No mistakes are searched: diagnose
-//          --samples names those of multisampling.
+//          picture. Samples are stored in the picture's format or in floats. If all colours are right, alpha is
+//          compared with the mean of what the layers of the samples leave, with one code per blend. No mistakes are
+//          searched: diagnose names them.
 // Source   GL 4.6 18.3.1: the resolve's filter is not specified; the mean is what profiles have (ResolveRule).
 // Tests    tests/tools/oracle/verdict/resolved_test.cpp
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "tools/oracle/verdict/alpha.h"
 #include "tools/oracle/verdict/hypothesis.h"
 #include "tools/oracle/verdict/sample.h"
 
@@ -21,13 +24,21 @@ struct ResolvedVerdict {
     std::uint64_t pixels = 0, at_edges = 0;     // at_edges: pixels whose samples have different fragments
     std::vector<std::uint32_t> wrong_pixels{};  // row-major, ascending
     std::uint64_t wrong_at_edges = 0;
-    double possible = 0;  // the widest interval, in codes of the picture (floats: 1/255)
-    [[nodiscard]] bool is_right() const noexcept { return wrong_pixels.empty(); }
+    double possible = 0;   // the widest interval, in codes of the picture (floats: 1/255)
+    AlphaChecked alpha{};  // no mistake is named
+    [[nodiscard]] bool is_right() const noexcept { return wrong_pixels.empty() && alpha.state != AlphaState::wrong; }
 };
 
-// `samples`: the fragments of every sample, all kept in memory.
-[[nodiscard]] ResolvedVerdict judge_resolved(const std::vector<std::unique_ptr<SceneFragments>>& samples,
-                                             const Colors& candidate);
+// The fragments of every sample, all kept in memory.
+using Samples = std::vector<std::unique_ptr<SceneFragments>>;
+
+[[nodiscard]] ResolvedVerdict judge_resolved(const Samples& samples, const Colors& candidate);
+// The same if the picture is right, in less time if it is not. `doubtful`: pixels that are compared first, by number.
+[[nodiscard]] std::optional<ResolvedVerdict> right_resolved(const Samples& samples, const Colors& candidate,
+                                                            const std::vector<std::uint32_t>& doubtful);
+
+// The pixels that are wrong, by their colours or else by their alpha.
+[[nodiscard]] const std::vector<std::uint32_t>& wrong_pixels(const ResolvedVerdict& verdict);
 
 [[nodiscard]] std::string to_text(const ResolvedVerdict& verdict, int width);
 [[nodiscard]] std::string to_json(const ResolvedVerdict& verdict, int width);

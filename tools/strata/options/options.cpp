@@ -73,9 +73,9 @@ std::optional<std::uint8_t> to_mask(std::string_view text) {
     return number && *number <= 255 ? std::optional{static_cast<std::uint8_t>(*number)} : std::nullopt;
 }
 
-void add_sample_options(CLI::App& app, RunOptions& options) {
-    add_choice(app, options.samples, "--samples", sample_counts,
-               "samples per pixel, where the profile has them (default 1)");
+}  // namespace
+
+void add_shading_options(CLI::App& app, RunOptions& options) {
     add_choice(
         app, options.shades_pixels, "--shading", shadings,
         "how often colours and programs are evaluated: once a sample, at its point, or once a pixel; coverage and "
@@ -83,6 +83,14 @@ void add_sample_options(CLI::App& app, RunOptions& options) {
     add_choice(app, options.interpolate, "--interpolate", interpolations,
                "where --shading pixel evaluates: at the pixel's centre, even outside the triangle, or at its centroid, "
                "the first covered sample of a pixel that is covered in part (default centre)");
+}
+
+namespace {
+
+void add_sample_options(CLI::App& app, RunOptions& options) {
+    add_choice(app, options.samples, "--samples", sample_counts,
+               "samples per pixel, where the profile has them (default 1)");
+    add_shading_options(app, options);
     add_option(app, options.sample,
                {"--sample", "N", "one of the samples alone, by its number from 0, instead of all of them resolved",
                 "a whole number from 0"},

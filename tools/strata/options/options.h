@@ -55,6 +55,8 @@ struct RunOptions {
     std::optional<scenes::ImageFile> format;  // --format: the file format of a picture on standard output
 };
 
+// Adds --shading and --interpolate.
+void add_shading_options(CLI::App& app, RunOptions& options);
 // Adds SCENE, --scene, --color-space and --no-light.
 void add_scene_options(CLI::App& app, std::string& scene, scenes::SceneOptions& options);
 

@@ -58,12 +58,15 @@ TEST_CASE("the mean of right samples is right in each format and by each end of 
 // llvmpipe evaluates 1/w at the pixel's centre, so that colours at a sample may exceed 1: a program multiplies them by
 // alpha before they are clamped. It also rounds each product of a blend.
 TEST_CASE("the mean of right samples is right where a profile interpolates beyond 1") {
-    OpenedScene opened{"showroom", 48, 36};
-    opened.profile = *pipeline::find_profile("llvmpipe");
-    for (const std::string algorithm : {"front_to_back", "dual"}) {
-        const ResolvedVerdict verdict = judged_samples(opened, resolved(opened, algorithm, pipeline::Format::rgba8));
-        INFO(algorithm << ": " << to_text(verdict, 48));
-        CHECK(verdict.is_right());
+    for (const std::string scene : {"showroom", "random:seed=3,triangles=60"}) {
+        OpenedScene opened{scene, 48, 36};
+        opened.profile = *pipeline::find_profile("llvmpipe");
+        for (const std::string algorithm : {"front_to_back", "dual"}) {
+            const ResolvedVerdict verdict =
+                judged_samples(opened, resolved(opened, algorithm, pipeline::Format::rgba8));
+            INFO(scene << ' ' << algorithm << ": " << to_text(verdict, 48));
+            CHECK(verdict.is_right());
+        }
     }
 }
 
