@@ -41,13 +41,17 @@ std::string TargetNames::of(pipeline::Target target) const {
 }
 
 pipeline::Image observe(const RunInput& input, const peeling::Algorithm& algorithm,
-                        std::span<const pipeline::Observer> observers, const pipeline::Alteration* alteration) {
+                        std::span<const pipeline::Observer> observers,
+                        std::span<const pipeline::Alteration> alterations) {
     peeling::RenderOptions options = input.options;
     options.execution = pipeline::Execution::literal;
     options.audit = options.keep_layers = options.nearest_depth = false;
     std::vector<pipeline::Instruments> instruments;
-    for (const pipeline::Observer& observer : observers)
-        instruments.push_back({.observer = &observer, .alteration = alteration});
+    for (const pipeline::Observer& observer : observers) {
+        const std::size_t sample = instruments.size();
+        instruments.push_back(
+            {.observer = &observer, .alteration = alterations.empty() ? nullptr : &alterations[sample]});
+    }
     peeling::SampledRenderer renderer{input.list, input.view, input.profile, options, input.sampling};
     peeling::RenderResult result = renderer.render(algorithm, {}, nullptr, instruments);
     if (result.outcome == peeling::Outcome::refused) throw pipeline::Refused{input.profile, *std::move(result.refusal)};
@@ -170,7 +174,7 @@ class Collector {
 }  // namespace
 
 void passes(const RunInput& input, const peeling::Algorithm& algorithm,
-            const std::function<void(PassReport&&)>& on_pass, const pipeline::Alteration* alteration) {
+            const std::function<void(PassReport&&)>& on_pass, std::span<const pipeline::Alteration> alterations) {
     const int samples = input.sampling.samples;
     Collector collector{on_pass, {input.options, input.profile}, samples};
     std::vector<pipeline::Observer> observers;
@@ -180,7 +184,7 @@ void passes(const RunInput& input, const peeling::Algorithm& algorithm,
                                            std::string_view name) { collector.name(sample, target, name); },
              .step = [&collector, sample](const Region& region,
                                           const StepEvent& event) { collector.step(sample, region, event); }});
-    collector.publish(observe(input, algorithm, observers, alteration));
+    collector.publish(observe(input, algorithm, observers, alterations));
 }
 
 }  // namespace strata::oracle

@@ -17,13 +17,10 @@
 #include <vector>
 
 #include "peeling/algorithms/algorithm.h"
+#include "pipeline/frame/alteration.h"
 #include "pipeline/frame/observer.h"
 #include "tools/oracle/run_input.h"
 #include "tools/oracle/target_parts.h"
-
-namespace strata::pipeline {
-struct Alteration;
-}
 
 namespace strata::oracle {
 
@@ -47,9 +44,9 @@ struct PassReport {
 };
 
 // Calls `on_pass` for one pass after another; it may keep the images. Throws Refused if the profile lacks a feature.
-// `alteration` makes a run with a mistake.
+// `alterations`: none, or those of each sample, which make a run with a mistake.
 void passes(const RunInput& input, const peeling::Algorithm& algorithm,
-            const std::function<void(PassReport&&)>& on_pass, const pipeline::Alteration* alteration = nullptr);
+            const std::function<void(PassReport&&)>& on_pass, std::span<const pipeline::Alteration> alterations = {});
 
 // Names of targets by their numbers, for observers.
 class TargetNames {
@@ -66,6 +63,6 @@ class TargetNames {
 // Throws Refused.
 pipeline::Image observe(const RunInput& input, const peeling::Algorithm& algorithm,
                         std::span<const pipeline::Observer> observers,
-                        const pipeline::Alteration* alteration = nullptr);
+                        std::span<const pipeline::Alteration> alterations = {});
 
 }  // namespace strata::oracle

@@ -17,7 +17,7 @@
 namespace strata::oracle {
 
 // What a mistake changes.
-enum class ChangedPart : std::uint8_t { scene, machine, steps, programs, picture };
+enum class ChangedPart : std::uint8_t { scene, machine, steps, programs, samples, picture };
 
 struct Mistake {
     std::string name{};         // "one_pass_too_few"
@@ -39,6 +39,7 @@ struct Mistake {
 [[nodiscard]] std::span<const Mistake> mistakes_of_programs();
 [[nodiscard]] std::span<const Mistake> mistakes_of_fixed_passes();
 [[nodiscard]] std::span<const Mistake> mistakes_of_reported_ports();
+[[nodiscard]] std::span<const Mistake> mistakes_of_samples();
 [[nodiscard]] std::span<const Mistake> mistakes_of_picture();
 
 }  // namespace strata::oracle

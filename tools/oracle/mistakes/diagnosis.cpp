@@ -82,7 +82,8 @@ bool is_nearly_whole(const Finding& f, const Diagnosis& d) {
     return f.agreeing != d.pixels && f.nearly == d.pixels && 2 * f.explained >= d.differing;
 }
 
-constexpr std::size_t most_pairs = 256;  // of rendered pairs; pairs with a mistake of the finished image cost nothing
+// Of rendered pairs, with one sample per pixel; pairs with a mistake of the finished image cost nothing.
+constexpr std::size_t most_pairs = 256;
 constexpr std::size_t most_pixels_of_pairs = std::size_t{1} << 21;
 
 }  // namespace
@@ -101,7 +102,7 @@ struct MistakeImages::Evidence {
 
 MistakeImages::MistakeImages(const MistakeRenderer& mistake_renderer, const ShowProgress& progress,
                              std::span<const Mistake> options)
-    : mistake_renderer_{mistake_renderer} {
+    : mistake_renderer_{mistake_renderer}, edges_{mistake_renderer.edges()} {
     for (const Mistake& option : options) suspects_.push_back({.mistake = &option});
     for (const Mistake& mistake : catalogue()) suspects_.push_back({.mistake = &mistake});
     for_all(suspects_.size(), progress,
@@ -190,6 +191,10 @@ Diagnosis MistakeImages::diagnose(const Picture& candidate, const Tolerances& to
     const Agreement right_agrees = agreement(mistake_renderer_.right(), candidate, tolerances);
     result.pixels = right_agrees.size();
     result.differing = static_cast<std::uint64_t>(std::ranges::count(right_agrees, false));
+    if (!edges_.empty()) {
+        result.at_edges = 0;
+        for (std::size_t i = 0; i < edges_.size(); ++i) *result.at_edges += edges_[i] && !right_agrees[i] ? 1 : 0;
+    }
     Evidence evidence{candidate, tolerances, right_agrees, std::vector<Agreement>(suspects_.size())};
     result.findings.push_back(evidence.of({}, mistake_renderer_.right()));
     const std::uint64_t right_nearly = result.findings.front().nearly;
@@ -354,7 +359,7 @@ void MistakeImages::try_pairs(const Evidence& evidence, const ShowProgress& prog
     });
     // If nothing is drawn, all mistakes that draw nothing fit, and pairs fit more easily than single ones. The
     // background gives more evidence.
-    pairs.resize(result.is_blank ? 0 : std::min(pairs.size(), most_pairs));
+    pairs.resize(result.is_blank ? 0 : std::min(pairs.size(), most_pairs / mistake_renderer_.samples()));
     pairs.insert(pairs.begin(), finished.begin(), finished.end());
     std::vector<std::optional<Finding>> found(pairs.size());
     for_all(pairs.size(), progress, [&](std::size_t i) {

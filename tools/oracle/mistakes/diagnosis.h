@@ -46,6 +46,7 @@ struct SuiteScene;  // tools/oracle/mistakes/suite.h
 struct Diagnosis {
     Verdict verdict{};
     std::uint64_t pixels = 0, differing = 0;      // differing: from the correct image, beyond the tolerances
+    std::optional<std::uint64_t> at_edges{};      // of `differing`, if pixels have several samples
     bool is_blank = false;                        // the candidate has one colour everywhere
     bool is_nearly = false;                       // the finding explains some pixels only within one code
     bool passes_contradict = false;               // the image equals the first finding's, but no known run's passes do
@@ -101,6 +102,7 @@ class MistakeImages {
 
     const MistakeRenderer& mistake_renderer_;
     std::vector<Suspect> suspects_;
+    std::vector<bool> edges_;  // of MistakeRenderer::edges
 };
 
 }  // namespace strata::oracle

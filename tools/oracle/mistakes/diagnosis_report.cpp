@@ -46,6 +46,16 @@ std::string first_line(const Diagnosis& d) {
                        description_of(best.mistakes));
 }
 
+// Where a picture of several samples per pixel differs.
+std::string line_of_edges(const Diagnosis& d) {
+    if (!d.at_edges || d.differing == 0) return "";
+    if (*d.at_edges == d.differing)
+        return fmt::format("  edges only: at all {} pixels that differ the samples have different fragments\n",
+                           d.differing);
+    return fmt::format("  {} of the {} pixels that differ are at edges, where samples have different fragments\n",
+                       *d.at_edges, d.differing);
+}
+
 std::string line_of(const Finding& f, const Diagnosis& d) {
     std::string text = fmt::format("  {} % of the pixels are those of: {}\n", percent(f.agreeing, d.pixels),
                                    description_of(f.mistakes));
@@ -112,6 +122,7 @@ std::string_view name(Verdict verdict) noexcept {
 std::string to_text(const Diagnosis& d, const Comparison& comparison) {
     std::string text = first_line(d);
     const Finding& best = d.findings.front();
+    text += line_of_edges(d);
     if (!best.mistakes.empty()) text += line_of(best.passes, "that machine");
     text += line_of(d.right_passes, "a correct implementation");
     text += hint_of_tolerance(d, comparison);
@@ -137,6 +148,7 @@ std::string to_json(const Diagnosis& d, const Comparison& comparison) {
     ordered_json document{{"verdict", name(d.verdict)},
                           {"pixels", d.pixels},
                           {"differing", d.differing},
+                          {"differing_at_edges", nullptr},
                           {"tried", d.tried},
                           {"pairs_tried", d.pairs_tried},
                           {"hidden", d.hidden},
@@ -148,6 +160,7 @@ std::string to_json(const Diagnosis& d, const Comparison& comparison) {
                           {"structure", nullptr},
                           {"distinguishing_scene", nullptr},
                           {"findings", ordered_json::array()}};
+    if (d.at_edges) document["differing_at_edges"] = *d.at_edges;
     if (!d.structure_json.empty()) document["structure"] = ordered_json::parse(d.structure_json);
     if (d.distinguishing_scene != nullptr) document["distinguishing_scene"] = d.distinguishing_scene->name;
     for (const Finding& f : d.findings) {

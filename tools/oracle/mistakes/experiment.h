@@ -1,7 +1,8 @@
 // tools/oracle/mistakes/experiment.h - the input of a run, as values that a mistake may change.
 //
 // Rule     A mistake changes one field of the scene, of the device or of the options, one step of the algorithm's run
-//          (an alteration), or the finished image. It never replaces the algorithm.
+//          (an alteration), the samples of a pixel, or the finished image. It never replaces the algorithm. Alterations
+//          keep state: of several samples, whose frames advance at once, each has an experiment of its own.
 #pragma once
 #include <functional>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "peeling/algorithms/algorithm.h"
+#include "peeling/multisampling.h"
 #include "peeling/render_options.h"
 #include "pipeline/device/profile.h"
 #include "pipeline/frame/alteration.h"
@@ -43,6 +45,7 @@ struct Experiment {
     pipeline::View view{};
     pipeline::DeviceProfile profile{};
     peeling::RenderOptions options{};
+    peeling::Multisampling sampling{};
     const peeling::Algorithm* algorithm = nullptr;
     RightRun right{};
     std::vector<pipeline::Alteration> alterations{};

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "peeling/render.h"
+#include "peeling/sample_hazard.h"
+#include "peeling/sampled_renderer.h"
 #include "pipeline/device/check.h"
 #include "tools/oracle/mistakes/catalogue.h"
 
@@ -19,6 +20,14 @@ auto made(auto&& run) -> std::optional<decltype(run())> {
     } catch (const std::logic_error&) {
     }
     return std::nullopt;
+}
+
+// Of each experiment; none if they alter no steps.
+std::vector<pipeline::Alteration> alterations_of(std::span<const Experiment> experiments) {
+    std::vector<pipeline::Alteration> all;
+    if (experiments.front().alterations.empty()) return all;
+    for (const Experiment& e : experiments) all.push_back(combined(e));
+    return all;
 }
 
 using Targets = std::vector<Target>;
@@ -40,12 +49,16 @@ Targets finished(const PassReport& last, const PassReport& published, const Expe
 
 MistakeRenderer::MistakeRenderer(const RunInput& input, const peeling::Algorithm& algorithm, Depths depths, int limit)
     : input_{input}, algorithm_{algorithm}, depths_{depths}, limit_{limit} {
-    right_ = run(experiment(), &right_run_);
+    right_ = run(experiments({}), &right_run_);
     find_enough_passes();
 }
 
 Experiment MistakeRenderer::experiment() const {
-    Experiment e{.list = &input_.list, .view = input_.view, .profile = input_.profile, .options = input_.options};
+    Experiment e{.list = &input_.list,
+                 .view = input_.view,
+                 .profile = input_.profile,
+                 .options = input_.options,
+                 .sampling = input_.sampling};
     e.algorithm = &algorithm_;
     e.right = right_run_;
     e.options.audit = e.options.keep_layers = false;
@@ -53,11 +66,13 @@ Experiment MistakeRenderer::experiment() const {
     return e;
 }
 
-Picture MistakeRenderer::run(const Experiment& e, RightRun* counted) const {
-    peeling::Renderer renderer{*e.list, e.view, e.profile, e.options};
-    const pipeline::Alteration alteration = combined(e);
-    peeling::RenderResult result =
-        renderer.render(*e.algorithm, {}, {.alteration = e.alterations.empty() ? nullptr : &alteration});
+Picture MistakeRenderer::run(std::span<const Experiment> experiments, RightRun* counted) const {
+    const Experiment& e = experiments.front();
+    peeling::SampledRenderer renderer{*e.list, e.view, e.profile, e.options, e.sampling};
+    const std::vector<pipeline::Alteration> alterations = alterations_of(experiments);
+    std::vector<pipeline::Instruments> instruments;
+    for (const pipeline::Alteration& alteration : alterations) instruments.push_back({.alteration = &alteration});
+    peeling::RenderResult result = renderer.render(*e.algorithm, {}, nullptr, instruments);
     if (result.outcome == peeling::Outcome::refused) throw pipeline::Refused{e.profile, *std::move(result.refusal)};
     if (counted != nullptr) {
         counted->passes = static_cast<int>(result.frame.passes.geometry);
@@ -78,7 +93,7 @@ void MistakeRenderer::find_enough_passes() {
     for (int passes = right_run_.passes - 1; passes >= 1; --passes) {
         Experiment e = experiment();
         e.options.max_passes = passes;
-        if (run(e).targets[0].codes != right_.targets[0].codes) return;
+        if (run({&e, 1}).targets[0].codes != right_.targets[0].codes) return;
         right_run_.enough_passes = passes;
     }
 }
@@ -91,29 +106,51 @@ std::optional<Experiment> MistakeRenderer::experiment(std::span<const Mistake* c
     const bool is_limited =
         e.options.max_passes != given_limit || e.options.termination.rule == pipeline::TerminationRule::fixed;
     const int limit = limit_ > 0 ? limit_ : right_run_.is_endless ? right_run_.passes : 2 * right_run_.passes + 8;
-    if (!is_limited && given_limit == 0 && right_run_.passes > 1) e.options.max_passes = limit;
+    const bool shades_pixels = e.options.raster.interpolation != rasterizer::Interpolation::sample;
+    const bool is_of_samples = e.sampling.is_joint() || (e.sampling.samples > 1 && shades_pixels);
+    const bool limits_itself = is_of_samples && e.alterations.empty() && limit_ == 0;
+    if (!is_limited && !limits_itself && given_limit == 0 && right_run_.passes > 1) e.options.max_passes = limit;
     return e;
 }
 
+std::vector<Experiment> MistakeRenderer::experiments(std::span<const Mistake* const> mistakes) const {
+    std::vector<Experiment> all;
+    std::optional<Experiment> e = experiment(mistakes);
+    if (!e) return all;
+    const int samples = e->alterations.empty() ? 1 : e->sampling.samples;
+    all.push_back(*std::move(e));
+    while (static_cast<int>(all.size()) < samples) all.push_back(*experiment(mistakes));
+    return all;
+}
+
+std::vector<bool> MistakeRenderer::edges() const {
+    std::vector<bool> edges;
+    if (input_.sampling.samples == 1) return edges;
+    for (const peeling::SampleEdge edge :
+         peeling::sample_edges(input_.list, input_.view, input_.profile, input_.options, algorithm_, input_.sampling))
+        edges.push_back(edge != peeling::SampleEdge::inside);
+    return edges;
+}
+
 std::optional<Picture> MistakeRenderer::with(std::span<const Mistake* const> mistakes) const {
-    const std::optional<Experiment> e = experiment(mistakes);
-    return e ? made([&] { return run(*e); }) : std::nullopt;
+    const std::vector<Experiment> all = experiments(mistakes);
+    return all.empty() ? std::nullopt : made([&] { return run(all); });
 }
 
 std::optional<PassAgreement> MistakeRenderer::compare_passes(std::span<const Mistake* const> mistakes,
                                                              const std::vector<PassPicture>& candidate) const {
-    const std::optional<Experiment> e = experiment(mistakes);
-    if (!e) return std::nullopt;
-    const pipeline::Alteration alteration = combined(*e);
+    const std::vector<Experiment> all = experiments(mistakes);
+    if (all.empty()) return std::nullopt;
+    const Experiment& e = all.front();
+    const std::vector<pipeline::Alteration> alterations = alterations_of(all);
     return made([&] {
         PassEvidence evidence{candidate};
         std::optional<PassReport> last;
         const auto add = [&](PassReport&& pass) {
-            if (last) evidence.add(*last, pass.kind == PassKind::published ? finished(*last, pass, *e) : Targets{});
+            if (last) evidence.add(*last, pass.kind == PassKind::published ? finished(*last, pass, e) : Targets{});
             last = std::move(pass);
         };
-        passes({*e->list, e->view, e->profile, e->options}, *e->algorithm, add,
-               e->alterations.empty() ? nullptr : &alteration);
+        passes({*e.list, e.view, e.profile, e.options, e.sampling}, *e.algorithm, add, alterations);
         return evidence.found();
     });
 }

@@ -24,7 +24,6 @@
 #include "tools/oracle/verdict/verdict.h"
 #include "tools/strata/command.h"
 #include "tools/strata/compare_pages.h"
-#include "tools/strata/diagnose/diagnose_samples.h"
 #include "tools/strata/diagnose/diagnosis_page.h"
 #include "tools/strata/diagnose/mistakes.h"
 #include "tools/strata/messages.h"
@@ -34,6 +33,7 @@
 #include "tools/strata/progress.h"
 #include "tools/strata/recorded_command.h"
 #include "tools/strata/render/run.h"
+#include "tools/strata/samples_verdict.h"
 #include "tools/strata/tolerances.h"
 
 namespace strata::tools {
@@ -96,6 +96,9 @@ struct OpenCase {
     [[nodiscard]] const std::vector<oracle::PassPicture>* passes_or_null() const {
         return passes.empty() ? nullptr : &passes;
     }
+    [[nodiscard]] oracle::RunInput input() const {
+        return {session.scene.list, session.view, session.profile, options.run.render, sampling(options.run)};
+    }
     [[nodiscard]] oracle::Comparison comparison() const {
         return oracle::compare(mistake_renderer->right(), candidate, options.tolerances);
     }
@@ -133,9 +136,8 @@ std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given, Tried tried, c
     options.run.render.height = opened->candidate.targets[0].height;
     opened->session = open_session(options.run);
     opened->mistake_renderer.emplace(
-        oracle::RunInput{opened->session.scene.list, opened->session.view, opened->session.profile, options.run.render},
-        algorithm, oracle::has_depth(opened->candidate) ? oracle::Depths::made : oracle::Depths::left_out,
-        options.limit);
+        opened->input(), algorithm,
+        oracle::has_depth(opened->candidate) ? oracle::Depths::made : oracle::Depths::left_out, options.limit);
     if (tried == Tried::options_too) opened->machine_options = machine_options(*opened);
     opened->mistake_images.emplace(*opened->mistake_renderer, progress, opened->machine_options);
     return opened;
@@ -166,6 +168,21 @@ int status_of(oracle::Verdict verdict) {
     return verdict == right || verdict == other_options || verdict == right_structure ? 0 : 1;
 }
 
+// The same of several samples, whose mean is judged: it may be right, while mistakes are not searched.
+void ask_samples(const OpenCase& opened, const oracle::Target& colors, oracle::Diagnosis& found) {
+    const oracle::RunInput input = opened.input();
+    if (input.sampling.is_joint() || input.sampling.resolve != pipeline::Resolve::box) return;
+    const SamplesVerdict samples = judge_samples(input,
+                                                 {colors, opened.options.alpha_form.has_value(),
+                                                  opened.options.tolerances.channels == oracle::ColorChannels::all},
+                                                 more_profiles(opened.options));
+    if (!samples.found.is_right()) return;
+    found.structure = to_text(samples);
+    found.structure_json = to_json(samples);
+    found.is_nearly = false;
+    found.verdict = oracle::Verdict::right_structure;
+}
+
 // Judges the picture by its layers, unless one mistake alone reproduces it to the last code. Any other picture may come
 // from a correct port with other rounding, or from a mistake that is not in the catalogue. Approximate algorithms are
 // skipped, because they have no correct layers.
@@ -177,6 +194,7 @@ void ask_layers(const OpenCase& opened, oracle::Diagnosis& found) {
     if (is_exact || found.is_blank || colors == opened.candidate.targets.end() || opened.passes_or_null() != nullptr ||
         !opened.options.run.algorithms[0]->exact)
         return;
+    if (opened.input().sampling.samples > 1) return ask_samples(opened, *colors, found);
     const peeling::RenderOptions& options = opened.options.run.render;
     const pipeline::DrawList& list = opened.session.scene.list;
     oracle::verdict::SceneFragments fragments{{list, opened.session.view, opened.session.profile, options},
@@ -219,21 +237,7 @@ void find_distinguishing_scene(oracle::Diagnosis& found) {
     found.distinguishing_scene = oracle::distinguishing_scene(mistakes);
 }
 
-// A picture of all samples.
-int diagnose_resolved(DiagnoseOptions options) {
-    if (!options.report.empty()) throw CLI::ValidationError("--report goes with one sample: --sample N");
-    choose_algorithm(options.run);
-    complete(options.run);
-    if (options.run.algorithms.size() != 1) throw CLI::ValidationError("--algorithm takes one algorithm here");
-    const oracle::Picture candidate = read_candidate(options, options.run.algorithms[0]->name);
-    options.run.render.width = candidate.targets[0].width;
-    options.run.render.height = candidate.targets[0].height;
-    const Session session = open_session(options.run);
-    return diagnose_samples(options.run, session, candidate, options.json);
-}
-
 int diagnose_one(const DiagnoseOptions& options) {
-    if (options.run.samples > 1 && !options.run.sample) return diagnose_resolved(options);
     Progress machines("wrong machines");
     const auto opened = open_case(options, Tried::options_too, shown_by(machines));
     Progress pairs("pairs of mistakes");

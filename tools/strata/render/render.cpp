@@ -70,8 +70,8 @@ int render_mistaken(RunOptions& options, const std::vector<const oracle::Mistake
     if (options.algorithms.size() != 1) throw CLI::ValidationError("--mistake takes one algorithm");
     if (options.output.empty()) throw CLI::ValidationError("--mistake needs -o FILE");
     const Session session = open_session(options);
-    const oracle::MistakeRenderer mistake_renderer{{session.scene.list, session.view, session.profile, options.render},
-                                                   *options.algorithms[0]};
+    const oracle::MistakeRenderer mistake_renderer{
+        {session.scene.list, session.view, session.profile, options.render, sampling(options)}, *options.algorithms[0]};
     const auto picture = mistake_renderer.with(mistakes);
     if (!picture)
         throw CLI::ValidationError("--mistake",
@@ -93,7 +93,7 @@ int render(RenderCommand& command) {
     check_outputs({{"-o", options.output, command.map ? map_endings : pictures, StandardOutput::possibly},
                    {"--report", command.report, {".html"}}});
     if (command.map && options.output.empty()) throw CLI::ValidationError("--map needs -o FILE.png");
-    options.resolves = !command.map && command.mistakes.empty() && command.report.empty();
+    options.resolves = !command.map && command.report.empty();
     if (!command.mistakes.empty()) return render_mistaken(options, command.mistakes);
     const int status = run_algorithms(options, [&](const CompletedRun& finished) {
         command.map ? write_map(options, *command.map, finished) : write_picture(options, finished);

@@ -6,6 +6,9 @@
 
 #include "peeling/registry.h"
 #include "peeling/render.h"
+#include "peeling/sampled_renderer.h"
+#include "pipeline/device/sample_points.h"
+#include "pipeline/formats/resolve.h"
 #include "scenes/camera.h"
 #include "tests/tools/oracle/mistakes/scenes_of_test.h"
 
@@ -121,4 +124,82 @@ TEST_CASE("of two mistakes both are made and that of the finished picture is mad
 TEST_CASE("a peel that never ends is stopped") {
     const SceneFixture bench{"showroom.front_to_back"};
     CHECK(bench.with("peels_again").targets[0].pixels() == 64 * 64);
+}
+
+namespace {
+
+constexpr int samples = 4;
+
+RunInput of_samples(const OpenScene& opened) {
+    RunInput input = opened.input();
+    input.sampling.samples = samples;
+    return input;
+}
+
+// The mean of the pictures that mistake renderers of one sample each make.
+Picture mean_of_samples(const OpenScene& opened, const Mistake& mistake) {
+    pipeline::ColorResolve resolve{samples, opened.profile.resolve, opened.profile.color_rounding()};
+    for (std::size_t number = 0; number < samples; ++number) {
+        RunInput input = opened.input();
+        pipeline::set_sample(input.options.raster, opened.profile.sample_positions, samples, number);
+        resolve.add(color_image(MistakeRenderer{input, *opened.algorithm}.with(mistake).value()));
+    }
+    return {.file = "", .targets = {as_target(std::move(resolve).picture(), "color")}};
+}
+
+}  // namespace
+
+// Steps that keep state do so for each sample.
+TEST_CASE("a mistake in a step of several samples is made in each of them") {
+    for (const char* name : {"showroom.front_to_back", "showroom.dual"}) {
+        const OpenScene opened = open(*find_suite_scene(name));
+        const MistakeRenderer mistake_renderer{of_samples(opened), *opened.algorithm};
+        for (const char* mistake :
+             {"opaque_depth_lost", "premultiplied_twice", "flipped_rows", "texture_upside_down"}) {
+            INFO(name << ' ' << mistake);
+            const Mistake& made = *find_mistake(mistake);
+            CHECK(is_equal(mistake_renderer.with(made).value(), mean_of_samples(opened, made)));
+            CHECK_FALSE(is_equal(mistake_renderer.with(made).value(), mistake_renderer.right()));
+        }
+    }
+}
+
+TEST_CASE("a mistake with samples makes the picture of the multisampling that it describes") {
+    const OpenScene opened = open(*find_suite_scene("showroom.front_to_back"));
+    const MistakeRenderer mistake_renderer{of_samples(opened), *opened.algorithm};
+    const auto by = [&](const peeling::Multisampling& sampling, auto change) {
+        peeling::RenderOptions options = opened.options;
+        change(options.raster);
+        if (sampling.samples == 1) options.max_passes = 2 * mistake_renderer.right_run().passes + 8;
+        peeling::SampledRenderer renderer{opened.scene.list, opened.view, opened.profile, options, sampling};
+        return Picture{.file = "", .targets = {as_target(renderer.render(*opened.algorithm).frame.color, "color")}};
+    };
+    const auto same = [](rasterizer::RasterState&) {};
+    const auto at = [](rasterizer::Interpolation place) {
+        return [place](rasterizer::RasterState& raster) { raster.interpolation = place; };
+    };
+    using enum pipeline::LoadedSample;
+    using enum rasterizer::Interpolation;
+    const auto with = [&](const char* name) { return mistake_renderer.with(*find_mistake(name)).value(); };
+    CHECK(is_equal(mistake_renderer.right(), by({.samples = samples}, same)));
+    CHECK(is_equal(with("no_samples"), by({.samples = 1}, same)));
+    CHECK(is_equal(with("resolve_before_compositing"), by({.samples = samples, .composites = resolved}, same)));
+    CHECK(is_equal(with("sample_0_for_all"), by({.samples = samples, .loads = zero, .composites = zero}, same)));
+    CHECK(is_equal(with("composites_sample_0"), by({.samples = samples, .composites = zero}, same)));
+    CHECK(is_equal(with("peel_loads_sample_0"), by({.samples = samples, .loads = zero}, same)));
+    CHECK(is_equal(with("peel_loads_resolved"), by({.samples = samples, .loads = resolved}, same)));
+    CHECK(is_equal(with("pixel_shading"), by({.samples = samples}, at(centre))));
+    CHECK(is_equal(with("pixel_shading_loads_sample_0"), by({.samples = samples, .loads = zero}, at(centre))));
+    CHECK(is_equal(with("pixel_shading_loads_resolved"), by({.samples = samples, .loads = resolved}, at(centre))));
+    CHECK(is_equal(with("centroid_shading"), by({.samples = samples}, at(centroid))));
+    CHECK(is_equal(with("centroid_shading_loads_sample_0"), by({.samples = samples, .loads = zero}, at(centroid))));
+    CHECK(is_equal(with("alpha_to_coverage_on"), by({.samples = samples}, [](rasterizer::RasterState& raster) {
+                       raster.sample_coverage.by_alpha = true;
+                   })));
+}
+
+TEST_CASE("a picture of one sample has no mistakes of samples and no edges") {
+    const SceneFixture bench{"showroom.front_to_back"};
+    for (const Mistake& mistake : mistakes_of_samples()) CHECK_FALSE(bench.mistake_renderer.with(mistake));
+    CHECK(bench.mistake_renderer.edges().empty());
 }

@@ -22,7 +22,8 @@ std::vector<PassPicture> passes_with(const OpenScene& opened, const char* mistak
     e.options.max_passes = limit;
     e.right = {.passes = 9, .enough_passes = 9};
     if (mistake != nullptr) REQUIRE(find_mistake(mistake)->make(e));
-    const pipeline::Alteration alteration = combined(e);
+    std::vector<pipeline::Alteration> alterations;
+    if (!e.alterations.empty()) alterations.push_back(combined(e));
     std::vector<PassPicture> all;
     passes(
         {*e.list, e.view, e.profile, e.options}, *e.algorithm,
@@ -32,7 +33,7 @@ std::vector<PassPicture> passes_with(const OpenScene& opened, const char* mistak
             for (const NamedImage& target : pass.targets)
                 all.back().targets.targets.push_back(as_target(target.image, target.name));
         },
-        e.alterations.empty() ? nullptr : &alteration);
+        alterations);
     return all;
 }
 

@@ -1,0 +1,78 @@
+// tools/oracle/mistakes/of_samples.cpp - mistakes with the samples of a pixel: which of them programs run for and load.
+//
+// Rule     None is applicable to a frame of one sample per pixel.
+// Source   pipeline/reference/fragment-stages.md 13.5; tools/invariance/MULTISAMPLING.md counts what each loses.
+#include "tools/oracle/mistakes/catalogue.h"
+
+namespace strata::oracle {
+
+namespace {
+
+using pipeline::LoadedSample;
+using rasterizer::Interpolation;
+
+// Programs that load another sample than their own.
+bool loads(Experiment& e, LoadedSample in_peels, LoadedSample in_composites) {
+    if (e.sampling.samples == 1 || (e.sampling.loads == in_peels && e.sampling.composites == in_composites))
+        return false;
+    e.sampling.loads = in_peels;
+    e.sampling.composites = in_composites;
+    return true;
+}
+
+bool shades_at(Experiment& e, Interpolation place) {
+    if (e.sampling.samples == 1 || e.options.raster.interpolation == place) return false;
+    e.options.raster.interpolation = place;
+    return true;
+}
+
+bool shades_pixels_and_loads(Experiment& e, Interpolation place, LoadedSample in_peels) {
+    return shades_at(e, place) && loads(e, in_peels, e.sampling.composites);
+}
+
+const Mistake sample_mistakes[] = {
+    {"no_samples", "one sample per pixel: multisampling left off", ChangedPart::samples,
+     [](Experiment& e) {
+         if (e.sampling.samples == 1) return false;
+         e.sampling.samples = 1;
+         e.sampling.resolve = pipeline::Resolve::box;
+         return true;
+     }},
+    {"resolve_before_compositing", "every layer resolved before it is composited", ChangedPart::samples,
+     [](Experiment& e) { return loads(e, e.sampling.loads, LoadedSample::resolved); }},
+    {"sample_0_for_all", "sample 0 loaded for all samples, in every program", ChangedPart::samples,
+     [](Experiment& e) { return loads(e, LoadedSample::zero, LoadedSample::zero); }},
+    {"composites_sample_0", "sample 0 of a layer composited for all samples", ChangedPart::samples,
+     [](Experiment& e) { return loads(e, e.sampling.loads, LoadedSample::zero); }},
+    {"peel_loads_sample_0", "sample 0's depth of the last layer compared with, for all samples", ChangedPart::samples,
+     [](Experiment& e) { return loads(e, LoadedSample::zero, e.sampling.composites); }},
+    {"peel_loads_resolved",
+     "the resolved depth of the last layer compared with: fragments doubled wherever depth slopes",
+     ChangedPart::samples, [](Experiment& e) { return loads(e, LoadedSample::resolved, e.sampling.composites); }},
+    {"alpha_to_coverage_on", "alpha to coverage left on, so that alpha counts twice", ChangedPart::samples,
+     [](Experiment& e) {
+         if (e.sampling.samples == 1 || e.options.raster.sample_coverage.by_alpha) return false;
+         return e.options.raster.sample_coverage.by_alpha = true;
+     }},
+    {"pixel_shading", "programs run once a pixel, so that samples near an edge peel a layer twice or not at all",
+     ChangedPart::samples, [](Experiment& e) { return shades_at(e, Interpolation::centre); }},
+    {"pixel_shading_loads_sample_0",
+     "programs run once a pixel, and sample 0's depth compared with: peeled from the front, edges darkened by doubled "
+     "fragments",
+     ChangedPart::samples,
+     [](Experiment& e) { return shades_pixels_and_loads(e, Interpolation::centre, LoadedSample::zero); }},
+    {"pixel_shading_loads_resolved", "programs run once a pixel, and the resolved depth compared with",
+     ChangedPart::samples,
+     [](Experiment& e) { return shades_pixels_and_loads(e, Interpolation::centre, LoadedSample::resolved); }},
+    {"centroid_shading", "programs run once a pixel, at the centroid", ChangedPart::samples,
+     [](Experiment& e) { return shades_at(e, Interpolation::centroid); }},
+    {"centroid_shading_loads_sample_0",
+     "programs run once a pixel, at the centroid, and sample 0's depth compared with", ChangedPart::samples,
+     [](Experiment& e) { return shades_pixels_and_loads(e, Interpolation::centroid, LoadedSample::zero); }},
+};
+
+}  // namespace
+
+std::span<const Mistake> mistakes_of_samples() { return sample_mistakes; }
+
+}  // namespace strata::oracle
