@@ -95,18 +95,15 @@ bool is_deep(const scenes::HardCase& hard, const scenes::Scene& scene) {
 std::vector<NamedOptions> ways_of(const scenes::HardCase& hard, const scenes::Scene& scene,
                                   const peeling::RenderOptions& options) {
     std::vector<NamedOptions> ways{{"default", options}};
-    if (is_huge(hard)) return ways.push_back(all_else(options)), ways;
+    if (is_huge(hard) || is_deep(hard, scene)) return ways.push_back(all_else(options)), ways;
     const auto add = [&](std::string name) -> peeling::RenderOptions& {
         return ways.emplace_back(std::move(name), options).second;
     };
-    const bool deep = is_deep(hard, scene);
-    peeling::RenderOptions& literal = add(deep ? "literal effects=all" : "literal");
-    literal.execution = Execution::literal;
-    if (deep) literal.effects = Effects::all;
+    add("literal").execution = Execution::literal;
     peeling::RenderOptions& threads = add("threads=2");
     threads.threads = 2;
     threads.tile_size = 8;
-    if (!deep) add("effects=all").effects = Effects::all;
+    add("effects=all").effects = Effects::all;
     for (const Simd simd : available_simd()) add("simd=" + std::string{name_of(simds, simd)}).simd = simd;
     return ways;
 }

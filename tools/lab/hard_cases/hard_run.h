@@ -2,10 +2,10 @@
 // Rule     Each algorithm runs once with default settings. That run is audited and its fragments are counted
 //          independently (composited.h). Then it runs in every other way that must not change a bit: literally, on two
 //          threads, with all effects simulated, on each instruction set. Image, depths, passes, audit and diagnostics
-//          must be those of the first run. If triangles times layers exceed 2^20, a run that rasterizes every pass
-//          takes seconds, so the literal run is the one with all effects. A frame of more than 2^24 pixels is only run
-//          with algorithms of one geometry pass, and the other ways are combined: literally, on two threads, with all
-//          effects, without vector instructions. The verdict is the first that holds:
+//          must be those of the first run. Where a run takes seconds, the other ways are combined in one: literally,
+//          on two threads, with all effects, without vector instructions. That is so if triangles times layers exceed
+//          2^20, and for a frame of more than 2^24 pixels, which is only run with algorithms of one geometry pass.
+//          The verdict is the first that holds:
 //            failed    a NaN; a bit that another way of running changes; fragments lost or repeated without a
 //                      diagnostic of exactly as many pixels; or an image beyond the case's bound for no such reason
 //            breaks    fragments are lost, repeated, mixed or misplaced, and a diagnostic says so
