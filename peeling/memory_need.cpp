@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "peeling/registry.h"
-#include "peeling/render.h"
+#include "peeling/sampled_renderer.h"
 #include "pipeline/device/profile.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_shortcuts.h"
@@ -111,10 +111,14 @@ std::uint64_t fragment_bytes(const Rehearsal& found, std::uint64_t pixels, std::
 }  // namespace
 
 MemoryNeed memory_need(const DrawList& list, const View& view, const DeviceProfile& profile,
-                       const RenderOptions& options, const Algorithm& algorithm, int samples) {
-    const Rehearsal found = rehearse(list, view, profile, options, algorithm);
+                       const RenderOptions& options, const Algorithm& algorithm, const Multisampling& sampling) {
+    RenderOptions rehearsed = options;
+    const bool joint = is_joint(algorithm, options, sampling);
+    if (joint) rehearsed.execution = Execution::literal;
+    const Rehearsal found = rehearse(list, view, profile, rehearsed, algorithm);
     MemoryNeed need;
     if (found.is_refused) return need;
+    const auto samples = static_cast<std::uint64_t>(sampling.samples), frames = joint ? samples : 1;
     const std::uint64_t pixels =
         std::uint64_t{static_cast<unsigned>(options.width)} * static_cast<unsigned>(options.height);
     const auto channels = static_cast<std::uint64_t>(found.channels);
@@ -132,7 +136,7 @@ MemoryNeed memory_need(const DrawList& list, const View& view, const DeviceProfi
 
     const std::uint64_t list_limit = std::max(options.fragment_memory, least_audit_memory);
     const auto kept = [&](std::uint64_t bytes_each, std::uint64_t limit) {
-        return fragment_bytes(found, at_once * region, bytes_each, limit);
+        return fragment_bytes(found, frames * at_once * region, bytes_each, limit);
     };
     if (options.audit) need.fragments += kept(audited_bytes, list_limit);
     if (algorithm.is_oracle) need.fragments += kept(listed_bytes, list_limit);
@@ -142,9 +146,10 @@ MemoryNeed memory_need(const DrawList& list, const View& view, const DeviceProfi
         need.triangles += mesh.positions.size() * vertex_bytes + mesh.indices.size() / 3 * triangle_bytes;
     }
     if (samples == 1) return need;
-    need.pictures *= 2;
-    need.layers *= 2;
-    need.triangles *= static_cast<std::uint64_t>(samples);
+    need.pictures *= frames + 1;
+    need.layers *= frames + 1;
+    need.targets *= frames;
+    need.triangles *= samples;
     return need;
 }
 

@@ -8,6 +8,8 @@
 #pragma once
 #include <cstdint>
 
+#include "peeling/multisampling.h"
+
 namespace strata::pipeline {
 struct DrawList;
 struct View;
@@ -26,10 +28,10 @@ struct MemoryNeed {  // in bytes
 };
 
 // The memory that SampledRenderer::render needs for these arguments in addition to the list itself; all 0 if the
-// profile rejects the frame. The lists of every sample are kept, but only one image of a sample and the sum. Throws
-// InputError as Renderer does.
+// profile rejects the frame. The lists of every sample are kept, but only one image of a sample and the sum; of samples
+// that load one another, the frames exist together. Throws InputError as Renderer does.
 [[nodiscard]] MemoryNeed memory_need(const pipeline::DrawList& list, const pipeline::View& view,
                                      const pipeline::DeviceProfile& profile, const RenderOptions& options,
-                                     const Algorithm& algorithm, int samples = 1);
+                                     const Algorithm& algorithm, const Multisampling& sampling = {});
 
 }  // namespace strata::peeling

@@ -126,7 +126,7 @@ struct Renderer::State {
                 .bytes_per_fragment = TileFragments::bytes_of(needs) + sorted_bytes};
     }
 
-    [[nodiscard]] Frame frame(const Algorithm& algorithm) {
+    [[nodiscard]] Frame frame(const Algorithm& algorithm, const Instruments& instruments = {}) {
         Frame f;
         f.profile = &profile;
         PreparedLists& own = lists_for(algorithm);
@@ -152,8 +152,9 @@ struct Renderer::State {
         f.replay = replay(algorithm, !f.depth_compare().is_plain());
         f.blank_tiles_are_equal = true;  // no program here reads x or y
         f.keep_layers = options.keep_layers;
-        const AuditMemory memory{audit_memory(),
-                                 execution(algorithm, {}) == Execution::literal ? 1 : thread_count(options.threads)};
+        const AuditMemory memory{
+            audit_memory() / static_cast<std::uint64_t>(instruments.samples.count),
+            execution(algorithm, instruments) == Execution::literal ? 1 : thread_count(options.threads)};
         f.trace = options.audit && algorithm.ties != TiePolicy::none;
         f.trace_bytes = memory.trace_bytes();
         f.list_bytes = memory.bytes / static_cast<std::uint64_t>(memory.workers);
@@ -218,18 +219,21 @@ struct Renderer::State {
     // Runs the frame; the audit examines regions as they end. If `traces` is set, it receives traces and no audit runs.
     void run_frame(const Algorithm& algorithm, const std::function<void(double)>& progress,
                    const Instruments& instruments, std::vector<RegionTrace>* traces, RenderResult& result) {
-        Frame f = frame(algorithm);
+        Frame f = frame(algorithm, instruments);
         was_invariant = f.is_invariant();
         if (instruments.samples.loads_others() && !limits_passes(options))
             f.max_passes = std::max(f.max_passes, loads_limit(algorithm, f, deepest));
         if (traces != nullptr) {
             f.trace = true;
             f.trace_bytes = ~std::uint64_t{0};
+        } else if (f.trace && instruments.samples.loads_others()) {
+            f.trace_bytes = trace_bytes_of_sample(instruments.samples, *f.transparent, audit_memory());
         }
         const Body body =
             body_of(algorithm, {options.algorithm, eye_distance(lists.settings().view, lists.settings().raster)});
         std::optional<Audit> audit;
-        if (options.audit && traces == nullptr) audit.emplace(f, body, algorithm, audit_memory(), options.threads);
+        if (options.audit && traces == nullptr)
+            audit.emplace(f, body, algorithm, audit_memory(), options.threads, instruments.samples);
         const RegionCallbacks callbacks = traces != nullptr ? keep_traces(*traces)
                                           : audit           ? audit->callbacks()
                                                             : RegionCallbacks{};

@@ -14,6 +14,7 @@
 #include "peeling/pass_limit.h"
 #include "pipeline/device/sample_points.h"
 #include "pipeline/formats/resolve.h"
+#include "pipeline/frame/observer.h"
 #include "pipeline/frame/sample_group.h"
 #include "pipeline/vertices/draw_list.h"
 #include "rasterizer/base/require.h"
@@ -44,9 +45,6 @@ void add_sample(const PassCount& one, PassCount& most) {
     most.full_screen = std::max(most.full_screen, one.full_screen);
     most.copies = std::max(most.copies, one.copies);
 }
-
-// More than any frame's fragments take.
-constexpr std::uint64_t joint_memory = std::uint64_t{1} << 44;
 
 // Combines the frames of the samples: images are resolved; counts are added, or their maximum is taken.
 class SampleSum {
@@ -110,6 +108,12 @@ class SampleSum {
 
 }  // namespace
 
+bool is_joint(const Algorithm& algorithm, const RenderOptions& options, const Multisampling& sampling) noexcept {
+    const bool counts_loops = (algorithm.runs_loops || algorithm.whole_frame) && limits_passes(options);
+    const bool counts_all = options.termination.rule == TerminationRule::ratio || counts_loops;
+    return sampling.is_joint() || (sampling.samples > 1 && counts_all);
+}
+
 struct SampledRenderer::State {
     const DrawList& list;
     View view;
@@ -131,21 +135,13 @@ struct SampledRenderer::State {
         return std::nullopt;
     }
 
-    // True if what a sample's frame does depends on the others: it loads what they store, or a query that is compared
-    // with a share of the frame, or a limit of passes over several loops, counts them all.
-    [[nodiscard]] bool is_joint(const Algorithm& algorithm) const {
-        const bool counts_loops = (algorithm.runs_loops || algorithm.whole_frame) && limits_passes(options);
-        const bool counts_all = options.termination.rule == TerminationRule::ratio || counts_loops;
-        return sampling.is_joint() || (sampling.samples > 1 && counts_all);
-    }
-
     // Calls `run` for each sample: one after the other, or, if the frames depend on one another or have instruments,
     // all at once. Calls `take` with the results in the order of the samples, until it returns false.
     template <class Run, class Take>
     void each(const Algorithm& algorithm, std::span<const Instruments> instruments, const Run& run, const Take& take) {
         share_limit(algorithm);
         std::vector<RenderResult> results;
-        if (is_joint(algorithm) || !instruments.empty()) results = run_jointly(instruments, run);
+        if (is_joint(algorithm, options, sampling) || !instruments.empty()) results = run_jointly(instruments, run);
         for (std::size_t number = 0; number < renderers.size(); ++number)
             if (!take(results.empty() ? run(renderer(number), number, Instruments{}) : std::move(results[number])))
                 return;
@@ -163,13 +159,16 @@ struct SampledRenderer::State {
 
     template <class Run>
     [[nodiscard]] std::vector<RenderResult> run_jointly(std::span<const Instruments> instruments, const Run& run) {
+        const auto is_observed = [](const Instruments& own) { return own.observer != nullptr && own.observer->step; };
+        if (std::ranges::any_of(instruments, is_observed) && !std::ranges::all_of(instruments, is_observed))
+            throw std::invalid_argument("observers of some samples only: their frames would wait for the others");
         std::vector<RenderResult> results(renderers.size());
         for (std::size_t number = 0; number < results.size(); ++number) static_cast<void>(renderer(number));
         SampleGroup group{sampling.samples};
         std::vector<std::exception_ptr> errors(results.size());
         const auto run_sample = [&](std::size_t number) {
             Instruments joint = instruments.empty() ? Instruments{} : instruments[number];
-            joint.samples = {&group, static_cast<int>(number), sampling.loads, sampling.composites};
+            joint.samples = {&group, static_cast<int>(number), sampling.samples, sampling.loads, sampling.composites};
             try {
                 results[number] = run(*renderers[number], number, joint);
                 if (results[number].outcome == Outcome::refused) group.abandon();
@@ -204,9 +203,7 @@ struct SampledRenderer::State {
             set_sample(own.raster, profile.sample_positions, sampling.samples, number);
         else if (!own.raster.sample)
             own.raster.interpolation = rasterizer::Interpolation::sample, own.raster.sample_coverage = {};
-        // No part of a joint frame can be run again alone, so its audit holds all fragments, whatever the limit of
-        // memory.
-        if (sampling.is_joint()) own.threads = 1, own.fragment_memory = joint_memory;
+        if (sampling.is_joint()) own.threads = 1;
         renderer = std::make_unique<Renderer>(list, view, profile, own);
         return *renderer;
     }
@@ -268,7 +265,7 @@ RenderResult SampledRenderer::render(const Algorithm& algorithm, const std::func
     const bool keeps_colors = own_colors != nullptr || s.sampling.resolve == Resolve::quincunx;
     const auto run = [&](Renderer& renderer, std::size_t number, const Instruments& joint) {
         const auto share = [&](double own) { progress((static_cast<double>(number) + own) / samples); };
-        const bool shows = progress && !s.is_joint(algorithm) && instruments.empty();
+        const bool shows = progress && !is_joint(algorithm, s.options, s.sampling) && instruments.empty();
         return renderer.render(algorithm, shows ? std::function<void(double)>{share} : nullptr, joint);
     };
     s.each(algorithm, instruments, run, [&](RenderResult&& one) {

@@ -19,6 +19,12 @@
 
 namespace strata::peeling {
 
+// True if what a sample's frame does depends on the others, so that the frames of all samples advance together: it
+// loads what they store, or a query that is compared with a share of the frame, or a limit of passes over several
+// loops, counts them all.
+[[nodiscard]] bool is_joint(const Algorithm& algorithm, const RenderOptions& options,
+                            const Multisampling& sampling) noexcept;
+
 class SampledRenderer {
   public:
     // Throws InputError as Renderer does, and for another number of samples. `list` must outlive this object.
@@ -31,7 +37,8 @@ class SampledRenderer {
     // Renders and resolves. The result has a refusal where Renderer::render has one, if the profile lacks the number of
     // samples or the filter, and, for several samples, if the algorithm stores fragments in samples. `own_colors`,
     // unless null, receives the picture of each sample. `instruments`: none, or those of each sample, whose frames then
-    // advance together, step by step and each on a thread of its own, so that all have the same passes.
+    // advance together, step by step and each on a thread of its own, so that all have the same passes. Throws
+    // std::invalid_argument if some have an observer and others none.
     [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress = {},
                                       std::vector<pipeline::Image>* own_colors = nullptr,
                                       std::span<const pipeline::Instruments> instruments = {});

@@ -12,6 +12,8 @@
 #include "peeling/audit/pixel_audit.h"
 #include "peeling/programs/fragment_lists.h"
 #include "pipeline/fragments/tile_parts.h"
+#include "pipeline/frame/effects.h"
+#include "pipeline/frame/sample_group.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shortcuts.h"
@@ -52,9 +54,11 @@ void move(PixelCount& count, int dx, int dy) {
     count.first_y += dy;
 }
 
-// The requested sum is what this pixel's fragment lists need, doubled because the trace has the other half.
-[[noreturn]] void throw_too_deep(const Part& pixel, std::uint32_t fragments, std::uint64_t bytes) {
-    const std::uint64_t list_bytes = fragments * AuditMemory::bytes_per_fragment * 2;
+// The requested sum is what this pixel's fragment lists need, doubled because traces have the other half, for each of
+// the samples.
+[[noreturn]] void throw_too_deep(const Part& pixel, std::uint32_t fragments, std::uint64_t bytes, int samples) {
+    const std::uint64_t list_bytes =
+        fragments * AuditMemory::bytes_per_fragment * 2 * static_cast<std::uint64_t>(samples);
     const std::uint64_t needed = list_bytes > bytes ? list_bytes : 2 * bytes;  // the length of the trace is not known
     throw InputError("strata", "--fragment-memory",
                      "at least " + std::to_string(needed) + " bytes for the audit of pixel (" +
@@ -63,12 +67,29 @@ void move(PixelCount& count, int dx, int dy) {
                      std::to_string(bytes));
 }
 
+[[noreturn]] void throw_samples_too_large(std::uint64_t needed, const std::string& what, std::uint64_t bytes) {
+    throw InputError("strata", "--fragment-memory",
+                     "at least " + std::to_string(needed) + " bytes for the audit of " + what +
+                         ", because samples that load one another are audited together, or --no-audit, or a smaller "
+                         "--size",
+                     std::to_string(bytes));
+}
+
 }  // namespace
+
+std::uint64_t trace_bytes_of_sample(const SampleLoads& samples, const PreparedDraw& list, std::uint64_t bytes) {
+    const std::uint64_t own = fragment_count(list), all = samples.group->sum(own);
+    if (all * sizeof(TraceEntry) > bytes / 2)
+        throw_samples_too_large(2 * all * sizeof(TraceEntry), std::to_string(all) + " fragments", bytes);
+    return bytes / 2 - (all - own) * sizeof(TraceEntry);
+}
 
 struct Audit::Impl {
     const Frame& frame;
     const Body& body;
     const Algorithm& algorithm;
+    std::uint64_t bytes;  // of all samples
+    SampleLoads samples;
     AuditMemory shared, alone;  // for one of all workers, and for a worker that runs alone
     int threads;
     Frame still;               // the frame without passes and trace, for reading its fragments
@@ -78,8 +99,16 @@ struct Audit::Impl {
     std::vector<RegionArea> places{};  // the regions; the tiles of a frame that is one region
     std::vector<Looked> found_at{};    // indexed as `places`
 
-    Impl(const Frame& f, const Body& b, const Algorithm& a, std::uint64_t bytes, int t)
-        : frame{f}, body{b}, algorithm{a}, shared{bytes, thread_count(t)}, alone{bytes, 1}, threads{t}, still{f} {
+    Impl(const Frame& f, const Body& b, const Algorithm& a, std::uint64_t of_all, int t, const SampleLoads& s)
+        : frame{f},
+          body{b},
+          algorithm{a},
+          bytes{of_all},
+          samples{s},
+          shared{bytes / static_cast<std::uint64_t>(s.count), thread_count(t)},
+          alone{shared.bytes, 1},
+          threads{t},
+          still{f} {
         still.replay = {};
         still.trace = false;
     }
@@ -225,9 +254,19 @@ struct Audit::Impl {
         return all;
     }
 
+    // A part of several pixels is left only by samples that load one another, whose fragments fit: their traces do not.
+    [[noreturn]] void throw_too_large(const Part& left) {
+        if (left.rect.area() > 1)
+            throw_samples_too_large(2 * bytes, "fragments that are composited more than once", bytes);
+        RegionStatistics statistics;
+        Region region{still, left, statistics, {}, &pool};
+        throw_too_deep(left, coverage_of(region).front(), bytes, samples.count);
+    }
+
     [[nodiscard]] AuditResult finish(const FrameResult& result) {
         Looked all;
         for (Looked& looked : found_at) all.add(std::move(looked));
+        if (samples.loads_others() && !all.left.empty()) throw_too_large(all.left.front());
         try {
             // First all workers with their shares, then one worker after another with all of the memory for the
             // remaining parts.
@@ -236,21 +275,18 @@ struct Audit::Impl {
         } catch (const NeedsFrame&) {
             throw InputError("strata", "--fragment-memory",
                              "room for the trace of the whole frame, as its lookups leave their tiles, or --no-audit",
-                             std::to_string(alone.bytes));
+                             std::to_string(bytes));
         }
-        if (!all.left.empty()) {
-            RegionStatistics statistics;
-            Region region{still, all.left.front(), statistics, {}, &pool};
-            throw_too_deep(all.left.front(), coverage_of(region).front(), alone.bytes);
-        }
+        if (!all.left.empty()) throw_too_large(all.left.front());
         // A frame without pixels has 0 order errors rather than "no order".
         if (has_order() && !all.found.order_errors) all.found.order_errors = 0;
         return all.found;
     }
 };
 
-Audit::Audit(const Frame& frame, const Body& body, const Algorithm& algorithm, std::uint64_t bytes, int threads)
-    : impl_{std::make_unique<Impl>(frame, body, algorithm, bytes, threads)} {}
+Audit::Audit(const Frame& frame, const Body& body, const Algorithm& algorithm, std::uint64_t bytes, int threads,
+             const SampleLoads& samples)
+    : impl_{std::make_unique<Impl>(frame, body, algorithm, bytes, threads, samples)} {}
 
 Audit::~Audit() = default;
 

@@ -15,7 +15,7 @@ enum class LoadedSample : std::uint8_t { own, zero, resolved };
 // The part of one sample's frame in a group.
 struct SampleLoads {
     SampleGroup* group = nullptr;  // null: every sample is a frame by itself, and loads read its own targets
-    int sample = 0;
+    int sample = 0, count = 1;     // the number of this sample, and of all
     LoadedSample geometry = LoadedSample::own;     // loads of geometry passes: of peels
     LoadedSample full_screen = LoadedSample::own;  // loads of full-screen passes: of composites
     [[nodiscard]] bool loads_others() const noexcept {

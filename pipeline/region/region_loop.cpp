@@ -26,8 +26,7 @@ bool Loop::any(Count count, Idle idle) {
     if (shared_.frame.termination.rule == TerminationRule::fixed) return true;  // no query at all
     if (shared_.instruments.log_passes) ++shared_.statistics.pass_log.queries;
     if (!shared_.instruments.trust_idle) idle = Idle::no;
-    SampleGroup* const group = shared_.instruments.samples.group;
-    if (group != nullptr) count.own_ = group->sum(count.own_);
+    if (SampleGroup* const group = shared_.instruments.samples.group) count.own_ = group->sum(count.own_);
     LoopStatistics& loop = shared_.statistics.loops.back();
     const std::size_t index = loop.decisions.size(), number = shared_.statistics.loops.size() - 1;
     const bool is_known = number < shared_.statistics.script.size() && index < shared_.statistics.script[number].size();
@@ -35,8 +34,8 @@ bool Loop::any(Count count, Idle idle) {
     if (is_known) {
         answer = shared_.statistics.script[number][index];
     } else if (shared_.is_frame()) {
-        const int samples = group == nullptr ? 1 : group->samples();
-        answer = continues(shared_.frame.termination, shared_.frame.rect(), count.own_, samples);
+        answer =
+            continues(shared_.frame.termination, shared_.frame.rect(), count.own_, shared_.instruments.samples.count);
     } else {
         answer = count.own_ > 0;
     }

@@ -21,9 +21,10 @@ DrawList six_layers() {
     return draw_list(scene);
 }
 
-MemoryNeed need_of(const char* algorithm, const RenderOptions& options, const char* profile = "geforce8") {
+MemoryNeed need_of(const char* algorithm, const RenderOptions& options, const char* profile = "geforce8",
+                   const Multisampling& sampling = {}) {
     static const DrawList list = six_layers();
-    return memory_need(list, {}, *find_profile(profile), options, *find_algorithm(algorithm));
+    return memory_need(list, {}, *find_profile(profile), options, *find_algorithm(algorithm), sampling);
 }
 
 RenderOptions options_of(int columns, int rows) {
@@ -82,6 +83,25 @@ TEST_CASE("targets are those that the algorithm makes when it runs and only the 
     CHECK(need_of("depth_units", literal).targets >= std::uint64_t{1000} * 500 * 4 * 2);
     CHECK(need_of("weighted_average", literal).fragments == 0);
     CHECK(need_of("a_buffer", literal).fragments >= std::uint64_t{6} * 1000 * 500 * 4);
+}
+
+// One frame after the other, or four literal ones together.
+TEST_CASE("samples that load one another need the targets and the audit of every sample at once") {
+    RenderOptions options = options_of(300, 200);
+    const MemoryNeed one = need_of("front_to_back", options);
+    const MemoryNeed apart = need_of("front_to_back", options, "geforce8", {.samples = 4});
+    const MemoryNeed joint =
+        need_of("front_to_back", options, "geforce8", {.samples = 4, .loads = LoadedSample::resolved});
+    options.execution = Execution::literal;
+    const MemoryNeed literal = need_of("front_to_back", options);
+    CHECK(apart.pictures == 2 * one.pictures);
+    CHECK(apart.targets == one.targets);
+    CHECK(apart.fragments == one.fragments);
+    CHECK(apart.triangles == 4 * one.triangles);
+    CHECK(joint.pictures == 5 * one.pictures);
+    CHECK(joint.targets == 4 * literal.targets);
+    CHECK(joint.fragments == 4 * literal.fragments);
+    CHECK(joint.triangles == 4 * one.triangles);
 }
 
 TEST_CASE("a rejected frame needs nothing") { CHECK(need_of("dual", options_of(64, 64), "geforce3").total() == 0); }

@@ -249,3 +249,40 @@ TEST_CASE("dual under every load rule composites at both ends what a model of it
     };
     for_each_rule(scene, "dual_independent", check);
 }
+
+// 33 triangles over all of 64x64 pixels: every sample has 33 x 64 x 64 fragments, each of which takes 16 bytes in a
+// trace; traces have half of the memory.
+TEST_CASE("the audit of samples that load one another needs memory for the traces of all") {
+    constexpr std::uint64_t enough = std::uint64_t{33} * 64 * 64 * model_samples * 16 * 2;
+    TriangleScene scene;
+    scene.list.materials = {{.name = "glass", .alpha_mode = strata::pipeline::AlphaMode::blend, .unlit = true}};
+    strata::pipeline::Mesh mesh;
+    for (int layer = 0; layer < 33; ++layer)
+        for (const auto& [x, y] : {std::pair{-1.0f, -1.0f}, {3.0f, -1.0f}, {-1.0f, 3.0f}}) {
+            mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+            mesh.positions.push_back({x, y, static_cast<float>(layer) / 64.0f});
+            mesh.colors.push_back({1, 1, 1, 0.5f});
+        }
+    scene.list.meshes = {mesh};
+    scene.list.instances = {{.mesh = 0, .material = 0}};
+    RenderOptions options = model_options(Interpolation::sample);
+    options.width = options.height = 64;
+    const auto audited = [&](std::uint64_t memory, bool audits) {
+        options.fragment_memory = memory;
+        options.audit = audits;
+        SampledRenderer renderer{scene.list,
+                                 scene.view,
+                                 *find_profile("geforce8_dx101"),
+                                 options,
+                                 {.samples = model_samples, .loads = LoadedSample::zero}};
+        return renderer.render(*find_algorithm("painter")).audit;
+    };
+    const auto all = audited(enough, true);
+    CHECK(all.order_errors == 0u);
+    CHECK(all.fragments_max == 33);
+    CHECK_THROWS_WITH(audited(enough - 1, true),
+                      "strata: --fragment-memory: expected at least 17301504 bytes for the audit of 540672 fragments, "
+                      "because samples that load one another are audited together, or --no-audit, or a smaller --size, "
+                      "found 17301503");
+    CHECK(audited(0, false).fragments_max == 0);
+}

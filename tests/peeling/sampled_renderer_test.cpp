@@ -247,3 +247,29 @@ TEST_CASE("frames of samples with instruments make the same passes and the bits 
         CHECK(queries[0] > 0);
     }
 }
+
+// Instruments let the frames of all samples advance together, so that their counts are added.
+TEST_CASE("a ratio of samples counted together is one of all samples") {
+    const TriangleScene scene = random_triangles(1207, 40);
+    RenderOptions options = sampled_options();
+    options.termination = {.rule = strata::pipeline::TerminationRule::ratio, .ratio = 0.25};
+    constexpr std::size_t samples = 4;
+    const double of_one = 0.25 * 61 * 47, of_all = of_one * samples;
+    std::array<strata::pipeline::Observer, samples> observers;
+    std::array<strata::pipeline::Instruments, samples> instruments;
+    int between = 0, wrong = 0;
+    for (auto& observer : observers) observer.step = [](const auto&, const auto&) {};
+    observers[0].step = [&](const auto&, const strata::pipeline::StepEvent& event) {
+        if (event.step != strata::pipeline::Step::query) return;
+        const auto passed = static_cast<double>(event.passed);
+        wrong += event.answer == (passed >= of_all) ? 0 : 1;
+        between += passed >= of_one && passed < of_all ? 1 : 0;
+    };
+    for (std::size_t s = 0; s < samples; ++s) instruments[s].observer = &observers[s];
+    SampledRenderer renderer{scene.list, scene.view, *find_profile("geforce8"), options, {.samples = samples}};
+    static_cast<void>(renderer.render(*find_algorithm("front_to_back"), {}, nullptr, instruments));
+    CHECK(wrong == 0);
+    CHECK(between == 1);
+    instruments[1].observer = nullptr;
+    CHECK_THROWS_AS(renderer.render(*find_algorithm("front_to_back"), {}, nullptr, instruments), std::invalid_argument);
+}

@@ -46,8 +46,9 @@ bool is_surely_enough(const RunOptions& options, std::uint64_t limit, std::uint6
     constexpr std::uint64_t most_bytes_a_pixel = 512;
     const std::uint64_t pixels =
         std::uint64_t{static_cast<unsigned>(options.render.width)} * static_cast<unsigned>(options.render.height);
-    const std::uint64_t lists = 1 + static_cast<std::uint64_t>(options.samples);
-    const std::uint64_t most = lists * held + pixels * most_bytes_a_pixel + 2 * options.render.fragment_memory;
+    const auto samples = static_cast<std::uint64_t>(options.samples);
+    const std::uint64_t most =
+        (1 + samples) * held + samples * pixels * most_bytes_a_pixel + 2 * options.render.fragment_memory;
     return !options.max_memory && !options.render.keep_layers && most < limit;
 }
 
@@ -79,7 +80,7 @@ void check_memory(const RunOptions& options, const Session& session, const peeli
     if (is_surely_enough(options, *limit, held)) return;
     const std::uint64_t need = held + writer_bytes(options) +
                                peeling::memory_need(session.scene.list, session.view, session.profile, options.render,
-                                                    algorithm, options.sample ? 1 : options.samples)
+                                                    algorithm, sampling(options))
                                    .total();
     if (need <= *limit) return;
     throw CLI::ValidationError(
