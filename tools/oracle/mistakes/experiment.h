@@ -49,6 +49,8 @@ struct Experiment {
     const peeling::Algorithm* algorithm = nullptr;
     RightRun right{};
     std::vector<pipeline::Alteration> alterations{};
+    // Of several samples per pixel: makes the image of the samples' images instead of the resolve.
+    std::function<pipeline::Image(const std::vector<pipeline::Image>& samples)> resolve{};
     std::vector<std::function<void(Picture&)>> afterwards{};  // changes to the finished image
     std::shared_ptr<Names> names = std::make_shared<Names>();
     std::shared_ptr<pipeline::DrawList> own_list{};

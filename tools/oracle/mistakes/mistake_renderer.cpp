@@ -72,13 +72,15 @@ Picture MistakeRenderer::run(std::span<const Experiment> experiments, RightRun* 
     const std::vector<pipeline::Alteration> alterations = alterations_of(experiments);
     std::vector<pipeline::Instruments> instruments;
     for (const pipeline::Alteration& alteration : alterations) instruments.push_back({.alteration = &alteration});
-    peeling::RenderResult result = renderer.render(*e.algorithm, {}, nullptr, instruments);
+    std::vector<pipeline::Image> samples;
+    peeling::RenderResult result = renderer.render(*e.algorithm, {}, e.resolve ? &samples : nullptr, instruments);
     if (result.outcome == peeling::Outcome::refused) throw pipeline::Refused{e.profile, *std::move(result.refusal)};
     if (counted != nullptr) {
         counted->passes = static_cast<int>(result.frame.passes.geometry);
         counted->is_endless = std::ranges::find(result.frame.diagnostics, pipeline::Fault::endless,
                                                 &pipeline::Diagnostic::fault) != result.frame.diagnostics.end();
     }
+    if (!samples.empty()) result.frame.color = e.resolve(samples);
     Picture picture{.file = "", .targets = {as_target(result.frame.color, "color")}};
     picture.targets[0].alpha_form = AlphaForm::premultiplied;
     if (depths_ == Depths::made) picture.targets.push_back(as_target(result.frame.depth, "depth"));

@@ -2,6 +2,7 @@
 //
 // Rule     None is applicable to a frame of one sample per pixel.
 // Source   pipeline/reference/fragment-stages.md 13.5; tools/invariance/MULTISAMPLING.md counts what each loses.
+#include "scenes/numbers/srgb_encode.h"
 #include "tools/oracle/mistakes/catalogue.h"
 
 namespace strata::oracle {
@@ -30,6 +31,27 @@ bool shades_pixels_and_loads(Experiment& e, Interpolation place, LoadedSample in
     return shades_at(e, place) && loads(e, in_peels, e.sampling.composites);
 }
 
+// The mean of decoded sRGB values, encoded; alpha is linear.
+pipeline::Image mean_of_decoded(const std::vector<pipeline::Image>& samples) {
+    std::vector<Target> targets;
+    for (const pipeline::Image& sample : samples) targets.push_back(as_target(sample, ""));
+    pipeline::Image mean = samples[0];
+    const auto channels = static_cast<std::size_t>(mean.channels());
+    for (std::size_t i = 0; i < mean.codes.size(); ++i) {
+        const bool is_alpha = i % channels == 3;
+        const auto decoded = [&](const Target& target) {
+            const double v = value(target.code, target.codes[i]);
+            return is_alpha ? v : double{scenes::decode_srgb(static_cast<float>(v))};
+        };
+        double sum = 0;
+        for (const Target& target : targets) sum += decoded(target);
+        const double linear = sum / static_cast<double>(samples.size());
+        mean.codes[i] =
+            nearest(targets[0].code, is_alpha ? linear : double{scenes::encode_srgb(static_cast<float>(linear))});
+    }
+    return mean;
+}
+
 const Mistake sample_mistakes[] = {
     {"no_samples", "one sample per pixel: multisampling left off", ChangedPart::samples,
      [](Experiment& e) {
@@ -42,8 +64,6 @@ const Mistake sample_mistakes[] = {
      [](Experiment& e) { return loads(e, e.sampling.loads, LoadedSample::resolved); }},
     {"sample_0_for_all", "sample 0 loaded for all samples, in every program", ChangedPart::samples,
      [](Experiment& e) { return loads(e, LoadedSample::zero, LoadedSample::zero); }},
-    {"composites_sample_0", "sample 0 of a layer composited for all samples", ChangedPart::samples,
-     [](Experiment& e) { return loads(e, e.sampling.loads, LoadedSample::zero); }},
     {"peel_loads_sample_0", "sample 0's depth of the last layer compared with, for all samples", ChangedPart::samples,
      [](Experiment& e) { return loads(e, LoadedSample::zero, e.sampling.composites); }},
     {"peel_loads_resolved",
@@ -69,6 +89,27 @@ const Mistake sample_mistakes[] = {
     {"centroid_shading_loads_sample_0",
      "programs run once a pixel, at the centroid, and sample 0's depth compared with", ChangedPart::samples,
      [](Experiment& e) { return shades_pixels_and_loads(e, Interpolation::centroid, LoadedSample::zero); }},
+    {"sample_mask_left_set", "a sample mask left set, with the first half of the samples", ChangedPart::samples,
+     [](Experiment& e) {
+         std::uint8_t& mask = e.options.raster.sample_coverage.mask;
+         const auto half = static_cast<std::uint8_t>((1 << (e.sampling.samples / 2)) - 1);
+         if (e.sampling.samples == 1 || mask == half) return false;
+         mask = half;
+         return true;
+     }},
+    {"sample_0_shown", "sample 0 alone: the samples never resolved", ChangedPart::samples,
+     [](Experiment& e) {
+         if (e.sampling.samples == 1) return false;
+         e.resolve = [](const std::vector<pipeline::Image>& samples) { return samples[0]; };
+         return true;
+     }},
+    {"resolved_in_linear_light", "encoded samples resolved as if their values were linear: decoded, and encoded again",
+     ChangedPart::samples,
+     [](Experiment& e) {
+         if (e.sampling.samples == 1) return false;
+         e.resolve = mean_of_decoded;
+         return true;
+     }},
 };
 
 }  // namespace

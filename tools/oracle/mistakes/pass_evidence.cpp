@@ -1,5 +1,7 @@
 #include "tools/oracle/mistakes/pass_evidence.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "tools/oracle/pack/pack_pictures.h"
@@ -21,6 +23,22 @@ std::uint32_t rounding_of(Code code) noexcept {
         case Code::integer: break;
     }
     return 1;
+}
+
+// One target, or one for each sample, with the names that pack_pictures.h gives them.
+std::vector<Target> targets_of(const NamedImage& named) {
+    const pipeline::Image& image = named.image;
+    if (image.samples == 1) return {as_target(image, named.name)};
+    std::vector<Target> targets;
+    for (int sample = 0; sample < image.samples; ++sample) {
+        pipeline::Image one{image.format, image.width, image.height};
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x)
+                for (int c = 0; c < image.channels(); ++c)
+                    one.codes[one.index(x, y, c)] = image.codes[image.index(x, y, c, sample)];
+        targets.push_back(as_target(one, fmt::format("{}.sample{}", named.name, sample)));
+    }
+    return targets;
 }
 
 bool has_one_shape(const Target& a, const Target& b) {
@@ -69,15 +87,16 @@ void PassEvidence::add(const PassReport& pass, std::span<const Target> instead) 
     if (pass.kind == PassKind::published) return;
     const auto other = std::ranges::find(candidate_, pass.number, &PassPicture::number);
     if (other == candidate_.end()) return;
-    for (const NamedImage& target : pass.targets) {
+    std::vector<Target> targets;
+    for (const NamedImage& image : pass.targets) std::ranges::move(targets_of(image), std::back_inserter(targets));
+    for (const Target& ours : targets) {
         const auto& all = other->targets.targets;
-        const auto theirs = std::ranges::find(all, target.name, &Target::name);
+        const auto theirs = std::ranges::find(all, ours.name, &Target::name);
         if (theirs == all.end()) continue;
         ++found_.targets;
-        const Target ours = as_target(target.image, target.name);
         const bool fits = has_one_shape(ours, *theirs);
         std::uint32_t apart = fits ? greatest_distance(ours, *theirs) : 0;
-        const auto other_form = std::ranges::find(instead, target.name, &Target::name);
+        const auto other_form = std::ranges::find(instead, ours.name, &Target::name);
         if (fits && apart > 0 && other_form != instead.end())
             apart = std::min(apart, greatest_distance(*other_form, *theirs));
         if (fits && apart == 0) {

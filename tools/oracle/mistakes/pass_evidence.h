@@ -1,8 +1,9 @@
 // tools/oracle/mistakes/pass_evidence.h - compares the passes of a run with those of a candidate, target by target.
 //
 // Rule     Targets are paired by pass number and name; a target is alike if all of its codes are equal. Targets of only
-//          one of the two are not compared. A target is far off if a code differs by more than other rounding can
-//          explain: 64 codes of binary32, 16 of 24 bits, 2 of fp16, 1 of fewer bits.
+//          one of the two are not compared. A target of several samples is one per sample. A target is far off if a
+//          code differs by more than other rounding can explain: 64 codes of binary32, 16 of 24 bits, 2 of fp16, 1 of
+//          fewer bits.
 // Tests    tests/tools/oracle/mistakes/pass_evidence_test.cpp
 #pragma once
 #include <cstdint>

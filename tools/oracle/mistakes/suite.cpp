@@ -54,6 +54,23 @@ void add_fixed_passes(std::vector<SuiteScene>& all) {
     add("hybrid_transparency", "the four nearest fragments, the rest averaged", "ideal");
 }
 
+void add_samples(std::vector<SuiteScene>& all) {
+    const auto add = [&](const char* algorithm, const char* why) {
+        all.push_back({.name = std::string{"samples."} + algorithm,
+                       .why = why,
+                       .scene = "random:seed=7,triangles=60",
+                       .algorithm = algorithm,
+                       .width = 32,
+                       .height = 32,
+                       .samples = 4,
+                       .options = blue,
+                       .set = on_blue});
+    };
+    add("front_to_back", "four samples per pixel: edges where they have different layers");
+    add("dual", "the same, where the depths that are compared are colours");
+    add("unsorted", "the same without programs that load a sample");
+}
+
 std::vector<SuiteScene> scenes_of_suite() {
     std::vector<SuiteScene> all{
         showroom("dual", "dual depth peeling over everything"),
@@ -134,6 +151,7 @@ std::vector<SuiteScene> scenes_of_suite() {
                    .options = blue,
                    .set = on_blue});
     add_fixed_passes(all);
+    add_samples(all);
     return all;
 }
 
@@ -156,7 +174,8 @@ OpenScene open(const SuiteScene& of) {
                      .view = {},
                      .profile = *pipeline::find_profile(of.profile),
                      .options = {},
-                     .algorithm = peeling::find_algorithm(of.algorithm)};
+                     .algorithm = peeling::find_algorithm(of.algorithm),
+                     .sampling = {.samples = of.samples}};
     opened.options.width = of.width;
     opened.options.height = of.height;
     if (of.set != nullptr) of.set(opened.options);
@@ -166,8 +185,9 @@ OpenScene open(const SuiteScene& of) {
 }
 
 std::string command_of(const SuiteScene& of, std::string_view verb) {
-    return fmt::format("strata {} {} --algorithm {} --profile {} --size {}x{}{}{}", verb, of.scene, of.algorithm,
-                       of.profile, of.width, of.height, of.options.empty() ? "" : " ", of.options);
+    const std::string samples = of.samples == 1 ? "" : fmt::format(" --samples {}", of.samples);
+    return fmt::format("strata {} {} --algorithm {} --profile {} --size {}x{}{}{}{}", verb, of.scene, of.algorithm,
+                       of.profile, of.width, of.height, samples, of.options.empty() ? "" : " ", of.options);
 }
 
 }  // namespace strata::oracle

@@ -20,7 +20,8 @@ struct SuiteScene {
     std::string why{};   // its purpose in the suite, as one sentence
     std::string scene{}, algorithm{}, profile = "geforce8";
     int width = 64, height = 64;
-    std::string options{};  // command-line options other than scene, algorithm, profile and size
+    int samples = 1;        // per pixel
+    std::string options{};  // command-line options other than scene, algorithm, profile, size and samples
     void (*set)(peeling::RenderOptions& options) = nullptr;  // the same options for the library
 };
 
@@ -34,7 +35,8 @@ struct OpenScene {
     pipeline::DeviceProfile profile;
     peeling::RenderOptions options;
     const peeling::Algorithm* algorithm = nullptr;
-    [[nodiscard]] RunInput input() const { return {scene.list, view, profile, options}; }
+    peeling::Multisampling sampling{};
+    [[nodiscard]] RunInput input() const { return {scene.list, view, profile, options, sampling}; }
 };
 [[nodiscard]] OpenScene open(const SuiteScene& scene);
 

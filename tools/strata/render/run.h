@@ -8,7 +8,7 @@
 #include "tools/strata/options/options.h"
 
 namespace strata::peeling {
-class SampledRenderer;
+class Renderer;
 struct RenderResult;
 }  // namespace strata::peeling
 
@@ -34,8 +34,7 @@ struct Session {
 struct CompletedRun {
     const Session& session;
     const peeling::Algorithm& algorithm;
-    peeling::SampledRenderer& renderer;
-    int samples;                    // that the renderer resolves
+    peeling::Renderer& renderer;    // of the first sample
     peeling::RenderResult& result;  // the writer may move its layers out
 };
 

@@ -43,6 +43,17 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("mistakes with samples are named in a scene of four samples and no other mistake is named for them") {
+    const TableColumn column = table_column(*find_suite_scene("samples.front_to_back"));
+    CHECK(wrong_cells(column) == 0);
+    const std::size_t shown = static_cast<std::size_t>(std::ranges::count(column.cells, Cell::named));
+    CHECK(shown > 40);
+    for (std::size_t m = 0; m < mistakes_of_samples().size(); ++m) {
+        INFO(catalogue()[m].name);
+        CHECK((column.cells[m] == Cell::named || column.cells[m] == Cell::alike));
+    }
+}
+
 TEST_CASE("every mistake is identified in a scene of the suite and never where it does not show and no two look alike",
           "[exhaustive]") {
     std::vector<TableColumn> columns(suite().size());

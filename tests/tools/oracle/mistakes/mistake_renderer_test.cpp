@@ -3,6 +3,7 @@
 #include "tools/oracle/mistakes/mistake_renderer.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "peeling/registry.h"
 #include "peeling/render.h"
@@ -185,7 +186,6 @@ TEST_CASE("a mistake with samples makes the picture of the multisampling that it
     CHECK(is_equal(with("no_samples"), by({.samples = 1}, same)));
     CHECK(is_equal(with("resolve_before_compositing"), by({.samples = samples, .composites = resolved}, same)));
     CHECK(is_equal(with("sample_0_for_all"), by({.samples = samples, .loads = zero, .composites = zero}, same)));
-    CHECK(is_equal(with("composites_sample_0"), by({.samples = samples, .composites = zero}, same)));
     CHECK(is_equal(with("peel_loads_sample_0"), by({.samples = samples, .loads = zero}, same)));
     CHECK(is_equal(with("peel_loads_resolved"), by({.samples = samples, .loads = resolved}, same)));
     CHECK(is_equal(with("pixel_shading"), by({.samples = samples}, at(centre))));
@@ -196,6 +196,43 @@ TEST_CASE("a mistake with samples makes the picture of the multisampling that it
     CHECK(is_equal(with("alpha_to_coverage_on"), by({.samples = samples}, [](rasterizer::RasterState& raster) {
                        raster.sample_coverage.by_alpha = true;
                    })));
+}
+
+TEST_CASE("a picture that is resolved wrongly is sample 0 or the mean of decoded values and a mask draws half of all") {
+    const OpenScene opened = open(*find_suite_scene("samples.front_to_back"));
+    const MistakeRenderer mistake_renderer{opened.input(), *opened.algorithm};
+    peeling::SampledRenderer renderer{
+        opened.scene.list, opened.view, opened.profile, opened.options, {.samples = samples}};
+    std::vector<pipeline::Image> images;
+    const Target right = as_target(renderer.render(*opened.algorithm, {}, &images).frame.color, "color");
+    const Target shown = mistake_renderer.with(*find_mistake("sample_0_shown")).value().targets[0];
+    const Target linear = mistake_renderer.with(*find_mistake("resolved_in_linear_light")).value().targets[0];
+    CHECK(shown.codes == as_target(images[0], "color").codes);
+    int lighter = 0, darker = 0, wrong = 0;
+    for (std::size_t i = 0; i < right.codes.size(); ++i) {
+        double sum = 0;
+        bool are_equal = true;
+        for (const pipeline::Image& image : images) {
+            const double v = image.codes[i] / 255.0;
+            sum += i % 4 == 3 ? v : v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+            are_equal &= image.codes[i] == images[0].codes[i];
+        }
+        const double mean = sum / samples;
+        const double encoded = i % 4 == 3          ? mean
+                               : mean <= 0.0031308 ? 12.92 * mean
+                                                   : 1.055 * std::pow(mean, 1 / 2.4) - 0.055;
+        wrong += std::fabs(linear.codes[i] - 255 * encoded) > 0.501 ? 1 : 0;
+        wrong += are_equal && linear.codes[i] != images[0].codes[i] ? 1 : 0;
+        lighter += linear.codes[i] > right.codes[i] ? 1 : 0;
+        darker += linear.codes[i] < right.codes[i] ? 1 : 0;
+    }
+    CHECK(wrong == 0);
+    CHECK(lighter > 100);
+    CHECK(darker == 0);
+    RunInput masked = opened.input();
+    masked.options.raster.sample_coverage.mask = 0b0011;
+    CHECK(is_equal(mistake_renderer.with(*find_mistake("sample_mask_left_set")).value(),
+                   MistakeRenderer{masked, *opened.algorithm}.right()));
 }
 
 TEST_CASE("a picture of one sample has no mistakes of samples and no edges") {

@@ -15,23 +15,42 @@ namespace {
 
 constexpr int limit = 60;  // passes after which an endless peel gives up
 
+// One target per sample, as candidate_pictures reads them.
+void add_target(const NamedImage& named, std::vector<Target>& targets) {
+    const auto count = static_cast<std::size_t>(named.image.samples);
+    const auto channels = static_cast<std::size_t>(named.image.channels());
+    for (std::size_t sample = 0; sample < count; ++sample) {
+        pipeline::Image one{named.image.format, named.image.width, named.image.height};
+        for (std::size_t i = 0; i < one.codes.size(); ++i)
+            one.codes[i] = named.image.codes[(i / channels * count + sample) * channels + i % channels];
+        const std::string ending = count == 1 ? "" : ".sample" + std::to_string(sample);
+        targets.push_back(as_target(one, named.name + ending));
+    }
+}
+
 // The passes that a port with this mistake would write; those of a correct run for nullptr.
 std::vector<PassPicture> passes_with(const OpenScene& opened, const char* mistake) {
-    Experiment e{.list = &opened.scene.list, .view = opened.view, .profile = opened.profile, .options = opened.options};
-    e.algorithm = opened.algorithm;
-    e.options.max_passes = limit;
-    e.right = {.passes = 9, .enough_passes = 9};
-    if (mistake != nullptr) REQUIRE(find_mistake(mistake)->make(e));
+    std::vector<Experiment> experiments;
+    for (int sample = 0; sample < opened.sampling.samples; ++sample) {
+        experiments.push_back(
+            {.list = &opened.scene.list, .view = opened.view, .profile = opened.profile, .options = opened.options});
+        experiments.back().sampling = opened.sampling;
+        experiments.back().algorithm = opened.algorithm;
+        experiments.back().options.max_passes = limit;
+        experiments.back().right = {.passes = 9, .enough_passes = 9};
+        if (mistake != nullptr) REQUIRE(find_mistake(mistake)->make(experiments.back()));
+    }
+    const Experiment& e = experiments[0];
     std::vector<pipeline::Alteration> alterations;
-    if (!e.alterations.empty()) alterations.push_back(combined(e));
+    if (!e.alterations.empty())
+        for (const Experiment& sample : experiments) alterations.push_back(combined(sample));
     std::vector<PassPicture> all;
     passes(
-        {*e.list, e.view, e.profile, e.options}, *e.algorithm,
+        {*e.list, e.view, e.profile, e.options, e.sampling}, *e.algorithm,
         [&](PassReport&& pass) {
             if (pass.kind == PassKind::published) return;
             all.push_back({.number = pass.number, .iteration = pass.iteration, .has_own = true});
-            for (const NamedImage& target : pass.targets)
-                all.back().targets.targets.push_back(as_target(target.image, target.name));
+            for (const NamedImage& target : pass.targets) add_target(target, all.back().targets.targets);
         },
         alterations);
     return all;
@@ -61,6 +80,26 @@ TEST_CASE("equal passes are counted and the first different one is reported") {
     CHECK(one_less->first_unlike == 3);
     CHECK(one_less->alike == one_less->targets - 1);
     CHECK(one_less->targets < whole->targets);
+}
+
+TEST_CASE("passes of several samples are compared sample by sample and name a mistake that the picture hides") {
+    const SceneFixture bench{"samples.front_to_back"};
+    const MistakeImages mistake_images{bench.mistake_renderer};
+    std::vector<PassPicture> passes = passes_with(bench.opened, nullptr);
+    const auto whole = bench.mistake_renderer.compare_passes({}, passes);
+    REQUIRE(whole);
+    CHECK(whole->is_whole());
+    CHECK(whole->targets >= 4 * static_cast<int>(passes.size()));
+    Target& last_sample = passes[2].targets.targets.back();
+    REQUIRE(last_sample.name.ends_with(".sample3"));
+    last_sample.codes[7] ^= 1;
+    CHECK(bench.mistake_renderer.compare_passes({}, passes)->first_unlike == 2);
+    for (const char* name : {"peel_loads_sample_0", "ping_pong_not_swapped", "sample_0_for_all"}) {
+        const Diagnosis found = diagnosed(mistake_images, bench.with(name), passes_with(bench.opened, name));
+        INFO(name);
+        CHECK(found.verdict == Verdict::one_mistake);
+        CHECK(first_of(found).mistakes[0]->name == name);
+    }
 }
 
 TEST_CASE("of mistakes with equal pictures the passes identify the one that was made") {
