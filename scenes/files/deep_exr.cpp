@@ -6,6 +6,7 @@
 #include <bit>
 #include <cassert>
 #include <cstring>
+#include <memory>
 #include <numeric>
 
 #include "pipeline/formats/value_digest.h"
@@ -106,17 +107,22 @@ std::string digest(const DeepFragments& fragments) {
     return hash.hexadecimal();
 }
 
-void write_deep(const std::string& path, const DeepFragments& fragments, const Attributes& attributes) {
+void write_deep(const std::string& path, std::span<const DeepFragments> samples, const Attributes& attributes) {
     const FloatEnvironment environment;
-    // The counts must add up to the length of the lists, or rows would exceed them.
-    assert(std::accumulate(fragments.count.begin(), fragments.count.end(), std::size_t{0}) == fragments.z.size());
     if (image_file(path) != ImageFile::exr)
         throw InputError(path, "name", "a file name that ends in .exr", "another ending");
-    DeepRows rows{fragments};
-    const PartSource part{.header = header_of(fragments, attributes),
-                          .rows = [&](int first, int last) { return rows.encode(first, last); },
-                          .samples = fragments.count};
-    write_exr_parts(path, {&part, 1});
+    std::vector<PartSource> parts;
+    for (std::size_t sample = 0; sample < samples.size(); ++sample) {
+        const DeepFragments& fragments = samples[sample];
+        // The counts must add up to the length of the lists, or rows would exceed them.
+        assert(std::accumulate(fragments.count.begin(), fragments.count.end(), std::size_t{0}) == fragments.z.size());
+        const auto rows = std::make_shared<DeepRows>(fragments);
+        parts.push_back({.header = header_of(fragments, attributes),
+                         .rows = [rows](int first, int last) { return rows->encode(first, last); },
+                         .samples = fragments.count});
+        if (samples.size() > 1) parts.back().header.name = "sample." + std::to_string(sample);
+    }
+    write_exr_parts(path, parts);
 }
 
 DeepFragments as_fragments(const StoredPart& part, const std::string& path) {
@@ -137,12 +143,13 @@ DeepFragments as_fragments(const StoredPart& part, const std::string& path) {
     return fragments;
 }
 
-DeepFragments read_deep(const std::string& path) {
+std::vector<DeepFragments> read_deep_samples(const std::string& path) {
     const FloatEnvironment environment;
-    std::vector<StoredPart> parts;
-    exr::read_parts(path, [&](StoredPart&& part) { parts.push_back(std::move(part)); });
-    // read_exr() returns at least one part or throws.
-    return as_fragments(parts.front(), path);
+    std::vector<DeepFragments> samples;
+    exr::read_parts(path, [&](StoredPart&& part) { samples.push_back(as_fragments(part, path)); });
+    return samples;  // read_parts() reads at least one part or throws
 }
+
+DeepFragments read_deep(const std::string& path) { return read_deep_samples(path).front(); }
 
 }  // namespace strata::scenes

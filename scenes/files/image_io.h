@@ -59,10 +59,14 @@ struct DeepFragments {
     friend bool operator==(const DeepFragments&, const DeepFragments&) = default;
 };
 
-// Writes one deep part with the binary32 and u32 channels listed in deep_exr.cpp. InputError unless the name ends in
-// .exr.
-void write_deep(const std::string& path, const DeepFragments& fragments, const Attributes& attributes);
-[[nodiscard]] DeepFragments read_deep(const std::string& path);  // rgba is premultiplied, as in the file
+// Writes a deep part for each sample of the pixels, named sample.0, sample.1 ... if there are several, with the
+// binary32 and u32 channels listed in deep_exr.cpp. InputError unless the name ends in .exr.
+void write_deep(const std::string& path, std::span<const DeepFragments> samples, const Attributes& attributes);
+inline void write_deep(const std::string& path, const DeepFragments& fragments, const Attributes& attributes) {
+    write_deep(path, std::span{&fragments, 1}, attributes);
+}
+[[nodiscard]] std::vector<DeepFragments> read_deep_samples(const std::string& path);  // rgba is premultiplied
+[[nodiscard]] DeepFragments read_deep(const std::string& path);                       // the first part
 
 // The hash of pipeline::digest over "deep", a zero byte, width and height, the fragments of each pixel, then of each
 // fragment R G B A (premultiplied), Z, depth code and primitive, all as u32.

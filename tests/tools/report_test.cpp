@@ -108,6 +108,29 @@ TEST_CASE("the pictures of a report have the codes and digests of render in ever
     }
 }
 
+TEST_CASE("a report of several samples has their resolved pictures and the fragments of sample 0") {
+    const Folder folder;
+    const std::string options = "teapot --size 30x20 --algorithm dual,weighted_average --samples 4";
+    const UnpackedReport report = report_of(folder, options);
+    REQUIRE(shell(folder, "strata render " + options + " --stats stats.json").status == 0);
+    const nlohmann::json stats = nlohmann::json::parse(content_of(folder / "stats.json"));
+    for (std::size_t i = 0; i < 2; ++i) {
+        const nlohmann::json& entry = report.document["algorithms"][i];
+        CHECK(entry["picture"]["digest"] == stats[i]["digest"]["color"]);
+        CHECK(entry["stats"]["order_errors"] == stats[i]["order_errors"]);
+        CHECK(entry["stats"]["max_difference_from_a_buffer"] == stats[i]["max_difference_from_a_buffer"]);
+    }
+    CHECK_THAT(report.document["left_out"][0].get<std::string>(),
+               Catch::Contains("fragments and histories of samples 1 to 3"));
+    REQUIRE(shell(folder, "rm -r out").status == 0);
+    const UnpackedReport first = report_of(folder, options + " --sample 0");
+    for (const char* const blob : {"z", "primitive"})
+        CHECK(words_of(report, report.document["fragments"][blob], 4) ==
+              words_of(first, first.document["fragments"][blob], 4));
+    CHECK(report.document["algorithms"][0]["picture"]["digest"] !=
+          first.document["algorithms"][0]["picture"]["digest"]);
+}
+
 TEST_CASE("the fragments of a report are complete and in order from near to far in each pixel") {
     const Folder folder;
     const UnpackedReport report = report_of(folder, "random:triangles=60 --size 24x20 --algorithm a_buffer");

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "scenes/files/image_io.h"
 #include "tests/tools/program.h"
 
 using namespace strata::test;
@@ -29,8 +30,10 @@ TEST_CASE("numbers of samples are rejected by name and --sample where it would h
          "--resolve goes with all samples of a picture"},
         {{"explain", "teapot", "--samples", "4", "--pixel", "3,3", "--svg", "a.svg"},
          "--svg goes with one sample: --sample N"},
-        {{"render", "teapot", "--samples", "2", "--map", "ties", "-o", "m.png"},
-         "--samples needs --sample here: a number from 0 to 1"},
+        {{"report", "teapot", "--samples", "2", "--load-sample", "resolved", "-o", "r"},
+         "a report has no loads of resolved samples; use own or 0"},
+        {{"report", "teapot", "--samples", "8", "--profile", "geforce3", "-o", "r"},
+         "--samples: profile geforce3 has no pictures of 8 samples per pixel (ARB_multisample)"},
     }));
     const Folder folder;
     const CommandResult ended = run_strata(folder, wrong.words);
@@ -109,6 +112,35 @@ TEST_CASE("a pack of all samples is the default of options and its command makes
         CHECK(shell(folder, "strata passes pack -q -o p --algorithm front_to_back").status == 0);
         CHECK(shell(folder, "rm -r pack again p a.exr b.exr c.exr").status == 0);
     }
+}
+
+// Three planes of one pixel's fragments, and three fragments at one depth, cover every sample of the middle.
+TEST_CASE("maps add the fragments of all samples and compare resolved pictures") {
+    const Folder folder;
+    const auto legend_of = [&](const std::string& options) {
+        return shell(folder, "strata render --size 32x24 --no-audit -o m.png --samples 4 " + options).err;
+    };
+    CHECK(legend_of("planes:count=3 --algorithm dual --map depth-complexity") ==
+          "depth-complexity: black is 0, white is 12\n");
+    CHECK(legend_of("hard:case=coincident --algorithm dual --map ties") == "ties: black is 0, white is 12\n");
+    CHECK(legend_of("planes:count=3 --algorithm a_buffer --map error") == "error: black is 0, white is 0 of 255\n");
+    CHECK(legend_of("teapot --algorithm weighted_average --map error") != "error: black is 0, white is 0 of 255\n");
+}
+
+TEST_CASE("deep layers have a part for each sample which is the deep file of that sample alone") {
+    const Folder folder;
+    const std::string options = " --size 20x15 -q --no-audit --samples 4 --algorithm front_to_back ";
+    CHECK(shell(folder, "strata layers teapot --deep all.exr -o layers.exr" + options).status == 0);
+    const auto samples = strata::scenes::read_deep_samples(folder / "all.exr");
+    REQUIRE(samples.size() == 4);
+    for (std::size_t s = 0; s < 4; ++s) {
+        CHECK(shell(folder, "strata layers teapot --deep one.exr --sample " + std::to_string(s) + options).status == 0);
+        CHECK(samples[s] == strata::scenes::read_deep(folder / "one.exr"));
+        CHECK(shell(folder, "rm one.exr").status == 0);
+    }
+    CHECK_FALSE(samples[0] == samples[1]);
+    CHECK(shell(folder, "strata compare all.exr all.exr --exact").status == 0);
+    CHECK(shell(folder, "strata info all.exr").out.find("sample.3") != std::string::npos);
 }
 
 TEST_CASE("a pack of one sample draws that sample") {

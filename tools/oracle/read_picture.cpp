@@ -95,10 +95,13 @@ Picture read_exr(const std::string& path) {
             throw InputError(path, fmt::format("part {}", number), expected, found);
         };
         if (!part.is_whole) fail("a whole image", "a damaged one");
-        if (part.header.is_deep)
-            std::ranges::move(layers_of_deep(part, path), std::back_inserter(picture.targets));
-        else if (const std::string format = scenes::attribute(part.header, "format.depth");
-                 scenes::attribute(part.header, "format.color").empty() && !format.empty())
+        if (part.header.is_deep) {
+            for (Target& layer : layers_of_deep(part, path)) {
+                if (part.header.name.starts_with("sample.")) layer.part = part.header.name + "." + layer.part;
+                picture.targets.push_back(std::move(layer));
+            }
+        } else if (const std::string format = scenes::attribute(part.header, "format.depth");
+                   scenes::attribute(part.header, "format.color").empty() && !format.empty())
             picture.targets.push_back(own_depth(part, format));
         else if (scenes::attribute(part.header, "format.color").empty())
             add_foreign(part, path, number, picture.targets);

@@ -67,6 +67,24 @@ TEST_CASE("depth codes and primitives of a deep EXR keep all 32 bits and Z keeps
         CHECK(std::bit_cast<std::uint32_t>(read.z[i]) == std::bit_cast<std::uint32_t>(written.z[i]));
 }
 
+TEST_CASE("samples of a pixel are deep parts of their own and are read back in order") {
+    const TemporaryFolder folder;
+    std::vector<DeepFragments> written;
+    for (const int most : {3, 0, 9, 1}) {
+        written.push_back(random_fragments(11, 7, most));
+        written.back().premultiplied = true;
+    }
+    write_deep(folder / "deep.exr", written, {{"command", "strata layers"}});
+    CHECK(read_deep_samples(folder / "deep.exr") == written);
+    CHECK(read_deep(folder / "deep.exr") == written[0]);
+    const std::vector<FileDigest> digests = digests_of(folder / "deep.exr");
+    REQUIRE(digests.size() == 4);
+    for (std::size_t sample = 0; sample < 4; ++sample) {
+        CHECK(digests[sample].part == "sample." + std::to_string(sample));
+        CHECK(digests[sample].digest == digest(written[sample]));
+    }
+}
+
 TEST_CASE("reading a deep file as flat or a flat one as deep and writing a deep PNG are errors") {
     const TemporaryFolder folder;
     write_deep(folder / "deep.exr", random_fragments(3, 3, 2), {});

@@ -6,7 +6,7 @@
 #include <memory>
 #include <numeric>
 
-#include "peeling/render.h"
+#include "peeling/sampled_renderer.h"
 #include "scenes/files/image_io.h"
 #include "tools/oracle/contact_sheet.h"
 #include "tools/strata/command.h"
@@ -98,8 +98,12 @@ void write_layers(const LayersOptions& options, const CompletedRun& finished) {
             scenes::write_layers(path, layers);
     }
     if (!options.deep.empty()) {
-        scenes::write_deep(path_for(options.deep, options.run, finished.algorithm),
-                           as_deep(finished.renderer.fragments(finished.algorithm).all, options.run), attributes);
+        std::vector<scenes::DeepFragments> samples;
+        for (int sample = 0; sample < finished.samples; ++sample)
+            samples.push_back(
+                as_deep(finished.renderer.sample(static_cast<std::size_t>(sample)).fragments(finished.algorithm).all,
+                        options.run));
+        scenes::write_deep(path_for(options.deep, options.run, finished.algorithm), samples, attributes);
     }
 }
 
@@ -109,7 +113,7 @@ int layers(LayersOptions& options) {
     if (options.run.output.empty() && options.deep.empty()) {
         throw CLI::ValidationError("-o is missing: the file for the layers; or --deep FILE, for the fragments");
     }
-    options.run.resolves = options.deep.empty();
+    options.run.resolves = true;
     options.run.render.keep_layers = true;
     return run_algorithms(options.run, [&](const CompletedRun& finished) { write_layers(options, finished); });
 }
@@ -129,7 +133,9 @@ Command add_layers(CLI::App& root) {
         "one sheet with all of them; - is standard output");
     add_format_option(*app, options->run, "what -o - writes (default exr)");
     add_path(*app, options->deep,
-             {"--deep", "FILE", "every fragment as a deep EXR, in submission order", "a file name"});
+             {"--deep", "FILE",
+              "every fragment as a deep EXR, in submission order; of several samples a part for each, sample.0 ...",
+              "a file name"});
     app->footer(
         footer("  strata layers teapot --size 200x150 -o layers.exr\n"
                "  strata layers volume-beam:slices=4 --algorithm depth_units --size 64x64 -o beam.exr --deep "

@@ -7,7 +7,7 @@
 
 #include "peeling/audit/image_error.h"
 #include "peeling/registry.h"
-#include "peeling/render.h"
+#include "peeling/sampled_renderer.h"
 #include "pipeline/device/check.h"
 #include "tools/strata/report/survey.h"
 
@@ -15,10 +15,21 @@ namespace strata::tools {
 
 namespace {
 
-Columns columns_of_frame(const RunOptions& options, const CompletedRun& finished) {
+// The sums over all samples of the numbers that `count(renderer)` returns for one.
+template <class Count>
+std::vector<double> sum_of_samples(const CompletedRun& finished, const Count& count) {
+    std::vector<double> sums = count(finished.renderer.sample(0));
+    for (int sample = 1; sample < finished.samples; ++sample) {
+        const std::vector<double> numbers = count(finished.renderer.sample(static_cast<std::size_t>(sample)));
+        for (std::size_t pixel = 0; pixel < sums.size(); ++pixel) sums[pixel] += numbers[pixel];
+    }
+    return sums;
+}
+
+Columns columns_of_frame(const RunOptions& options, peeling::Renderer& renderer) {
     const auto pixels =
         static_cast<std::size_t>(options.render.width) * static_cast<std::size_t>(options.render.height);
-    return columns_of(finished.renderer.fragments(*peeling::find_algorithm("a_buffer")).all, pixels);
+    return columns_of(renderer.fragments(*peeling::find_algorithm("a_buffer")).all, pixels);
 }
 
 std::vector<double> complexity(const Columns& columns) {
@@ -47,10 +58,11 @@ std::vector<double> ties(const Columns& columns) {
 }
 
 // The number of fragments of each pixel whose code is equal to that of the pixel's opaque surface.
-std::vector<double> opaque_ties(const RunOptions& options, const CompletedRun& finished) {
-    const peeling::FrameFragments found = finished.renderer.fragments(finished.algorithm);
+std::vector<double> opaque_ties(const RunOptions& options, const peeling::Algorithm& algorithm,
+                                peeling::Renderer& renderer) {
+    const peeling::FrameFragments found = renderer.fragments(algorithm);
     const bool is_reversed = options.render.raster.depth_order == rasterizer::DepthOrder::greater;
-    const std::uint32_t far = is_reversed ? 0 : rasterizer::max_code(finished.renderer.depth_format());
+    const std::uint32_t far = is_reversed ? 0 : rasterizer::max_code(renderer.depth_format());
     std::vector<double> numbers(found.opaque.size());
     for (const pipeline::CapturedFragment& f : found.all)
         if (f.code == found.opaque[f.pixel] && f.code != far) ++numbers[f.pixel];
@@ -73,10 +85,13 @@ std::vector<double> errors(const RunOptions& options, const CompletedRun& finish
 }
 
 std::vector<double> numbers_of(Map map, const RunOptions& options, const CompletedRun& finished) {
+    const auto sum = [&](const auto& count) { return sum_of_samples(finished, count); };
     switch (map) {
-        case Map::depth_complexity: return complexity(columns_of_frame(options, finished));
-        case Map::ties: return ties(columns_of_frame(options, finished));
-        case Map::opaque_ties: return opaque_ties(options, finished);
+        case Map::depth_complexity:
+            return sum([&](peeling::Renderer& one) { return complexity(columns_of_frame(options, one)); });
+        case Map::ties: return sum([&](peeling::Renderer& one) { return ties(columns_of_frame(options, one)); });
+        case Map::opaque_ties:
+            return sum([&](peeling::Renderer& one) { return opaque_ties(options, finished.algorithm, one); });
         case Map::error: return errors(options, finished);
     }
     return {};  // unreachable: the enum is closed

@@ -180,11 +180,11 @@ RunSummary summarize(const peeling::Algorithm& algorithm, peeling::RenderResult&
 
 // Renders, and writes the files while the pixels exist. A refused algorithm writes no file.
 RunSummary run_one(const Session& session, const peeling::Algorithm& algorithm, peeling::SampledRenderer& renderer,
-                   const Writer& write) {
+                   int samples, const Writer& write) {
     Progress progress(algorithm.name);
     peeling::RenderResult result = renderer.render(algorithm, [&](double share) { progress.show(share); });
     const bool is_done = result.outcome == peeling::Outcome::done;
-    if (is_done) write({session, algorithm, renderer.sample(0), result});
+    if (is_done) write({session, algorithm, renderer, samples, result});
     RunSummary summary = summarize(algorithm, std::move(result));
     if (is_done) say_detail(path_text(summary));
     return summary;
@@ -238,7 +238,7 @@ int run_algorithms(RunOptions& options, const Writer& write) {
     std::vector<RunSummary> runs;
     for (const peeling::Algorithm* algorithm : options.algorithms) {
         scenes::set_interrupt_message(undone(options, runs.size()));
-        runs.push_back(run_one(session, *algorithm, renderer, write));
+        runs.push_back(run_one(session, *algorithm, renderer, sampling(options).samples, write));
     }
     scenes::set_interrupt_message("");
     report(options, runs, session.profile.name);

@@ -8,7 +8,7 @@
 #include "tools/strata/options/options.h"
 
 namespace strata::peeling {
-class Renderer;
+class SampledRenderer;
 struct RenderResult;
 }  // namespace strata::peeling
 
@@ -34,7 +34,8 @@ struct Session {
 struct CompletedRun {
     const Session& session;
     const peeling::Algorithm& algorithm;
-    peeling::Renderer& renderer;    // of the first sample
+    peeling::SampledRenderer& renderer;
+    int samples;                    // that the renderer resolves
     peeling::RenderResult& result;  // the writer may move its layers out
 };
 

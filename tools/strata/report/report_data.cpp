@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "peeling/sampled_renderer.h"
 #include "pipeline/device/check.h"
+#include "pipeline/device/sample_points.h"
 #include "rasterizer/base/input_error.h"
 #include "tools/oracle/history_report.h"
 #include "tools/strata/progress.h"
@@ -118,7 +120,10 @@ class Builder {
         : options_{options},
           session_{session},
           region_{region},
-          renderer_{session.scene.list, session.view, session.profile, options.render} {}
+          samples_{sampling(options).samples},
+          renderer_{session.scene.list, session.view, session.profile, options.render, sampling(options)} {
+        check_samples();
+    }
 
     ReportData build() {
         ordered_json& document = data_.document;
@@ -130,7 +135,7 @@ class Builder {
             {"height", region_.height()},
             {"origin", {region_.x0, region_.y0}},
             {"frame", {options_.render.width, options_.render.height}},
-            {"depth_format", pipeline::info(pipeline::target_format(renderer_.depth_format())).name},
+            {"depth_format", pipeline::info(pipeline::target_format(renderer_.sample(0).depth_format())).name},
             {"colour", options_.scene_options.color_space == pipeline::ColorSpace::linear ? "linear" : "encoded"},
             {"most_bytes", most_bytes},
             {"left_out", ordered_json::array()},
@@ -141,6 +146,11 @@ class Builder {
         if (region_.area() < rasterizer::Rect{0, 0, options_.render.width, options_.render.height}.area())
             leave_out(fmt::format("pixels of the frame outside columns {} to {} and rows {} to {}", region_.x0,
                                   region_.x1 - 1, region_.y0, region_.y1 - 1));
+        if (samples_ > 1)
+            leave_out(
+                fmt::format("fragments and histories of samples 1 to {}: those of pixels are of sample 0, pictures "
+                            "and numbers are of all samples",
+                            samples_ - 1));
         add_fragments();
         for (const peeling::Algorithm* algorithm : options_.algorithms) add(*algorithm);
         if (inspected_ != nullptr) add_history(*inspected_);
@@ -149,8 +159,21 @@ class Builder {
     }
 
   private:
+    // Sample 0 stores and loads the same in a frame by itself, unless it loads what others store.
+    void check_samples() const {
+        if (samples_ == 1) return;
+        if (const auto lacking = pipeline::check_multisampling(session_.profile, samples_))
+            throw CLI::ValidationError("--samples", lacking->message(session_.profile));
+        for (const pipeline::LoadedSample loads : {options_.load_sample, options_.composite_sample})
+            if (loads == pipeline::LoadedSample::resolved)
+                throw CLI::ValidationError("a report has no loads of resolved samples; use own or 0");
+    }
+
+    // Of sample 0.
     [[nodiscard]] oracle::RunInput input() const {
-        return {session_.scene.list, session_.view, session_.profile, options_.render};
+        oracle::RunInput input{session_.scene.list, session_.view, session_.profile, options_.render};
+        if (samples_ > 1) pipeline::set_sample(input.options.raster, session_.profile.sample_positions, samples_, 0);
+        return input;
     }
 
     void leave_out(const std::string& message) { data_.document["left_out"].push_back(message); }
@@ -159,7 +182,7 @@ class Builder {
     // format.
     void add_fragments() {
         frame_ = columns_of(
-            renderer_.fragments(*peeling::find_algorithm("a_buffer")).all,
+            renderer_.sample(0).fragments(*peeling::find_algorithm("a_buffer")).all,
             static_cast<std::size_t>(options_.render.width) * static_cast<std::size_t>(options_.render.height));
         take_region();
         kept_ = keep(columns_);
@@ -296,7 +319,8 @@ class Builder {
     const RunOptions& options_;
     const Session& session_;
     rasterizer::Rect region_;
-    peeling::Renderer renderer_;
+    int samples_;
+    peeling::SampledRenderer renderer_;
     ReportData data_;
     Columns frame_, columns_;              // of the whole frame; of the region
     std::vector<std::uint32_t> in_frame_;  // index in `frame_` of each fragment of the region
