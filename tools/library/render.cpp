@@ -11,13 +11,23 @@ inline namespace v0_1 {
 namespace {
 
 // The renderer refers to the draw list of the scene, which must outlive it.
-peeling::Renderer renderer_of(const Scene& scene, const DeviceProfile& profile, const RenderOptions& options) {
-    return {scene.list(), scene.view(options.width, options.height), profile, options};
+peeling::SampledRenderer renderer_of(const Scene& scene, const DeviceProfile& profile, const RenderOptions& options,
+                                     const Multisampling& sampling) {
+    return {scene.list(), scene.view(options.width, options.height), profile, options, sampling};
+}
+
+void check_pixel(int x, int y, const RenderOptions& options) {
+    const auto within = [](const char* place, int at, int size) {
+        if (at < 0 || at >= size)
+            throw InputError("pixel", place, "0 to " + std::to_string(size - 1), std::to_string(at));
+    };
+    within("x", x, options.width);
+    within("y", y, options.height);
 }
 
 oracle::RunInput input_of(const Scene& scene, const View& view, const DeviceProfile& profile,
-                          const RenderOptions& options) {
-    return {scene.list(), view, profile, options};
+                          const RenderOptions& options, const Multisampling& sampling = {}) {
+    return {scene.list(), view, profile, options, sampling};
 }
 
 }  // namespace
@@ -39,15 +49,15 @@ Picture Rendering::picture() const {
 }
 
 Rendering render(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,
-                 const RenderOptions& options) {
-    return {profile, renderer_of(scene, profile, options).render(algorithm)};
+                 const RenderOptions& options, const Multisampling& sampling) {
+    return {profile, renderer_of(scene, profile, options, sampling).render(algorithm)};
 }
 
 std::vector<Layer> layers(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,
-                          const RenderOptions& options) {
+                          const RenderOptions& options, const Multisampling& sampling) {
     RenderOptions kept = options;
     kept.keep_layers = true;
-    peeling::RenderResult result = renderer_of(scene, profile, kept).render(algorithm);
+    peeling::RenderResult result = renderer_of(scene, profile, kept, sampling).render(algorithm);
     if (result.refusal) throw Refused{profile, *std::move(result.refusal)};
     std::vector<Layer> near_to_far, from_behind;
     for (pipeline::PeeledLayer& kept_layer : result.frame.layers) {
@@ -65,28 +75,33 @@ std::vector<Layer> layers(const Scene& scene, const Algorithm& algorithm, const 
 
 std::vector<CapturedFragment> fragments(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,
                                         const RenderOptions& options) {
-    return renderer_of(scene, profile, options).fragments(algorithm).all;
+    return peeling::Renderer{scene.list(), scene.view(options.width, options.height), profile, options}
+        .fragments(algorithm)
+        .all;
 }
 
 std::vector<oracle::PassReport> passes(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,
-                                       const RenderOptions& options) {
+                                       const RenderOptions& options, const Multisampling& sampling) {
     std::vector<oracle::PassReport> shown;
     const View view = scene.view(options.width, options.height);
-    oracle::passes(input_of(scene, view, profile, options), algorithm,
+    oracle::passes(input_of(scene, view, profile, options, sampling), algorithm,
                    [&](oracle::PassReport&& pass) { shown.push_back(std::move(pass)); });
     return shown;
 }
 
 oracle::History explain(const Scene& scene, int x, int y, const Algorithm& algorithm, const DeviceProfile& profile,
                         const RenderOptions& options) {
-    const auto within = [](const char* place, int at, int size) {
-        if (at < 0 || at >= size)
-            throw InputError("pixel", place, "0 to " + std::to_string(size - 1), std::to_string(at));
-    };
-    within("x", x, options.width);
-    within("y", y, options.height);
+    check_pixel(x, y, options);
     const View view = scene.view(options.width, options.height);
     return oracle::explain(input_of(scene, view, profile, options), algorithm, {x, y, x + 1, y + 1}).at(0);
+}
+
+oracle::SampledHistory explain_samples(const Scene& scene, int x, int y, const Algorithm& algorithm,
+                                       const DeviceProfile& profile, const RenderOptions& options,
+                                       const Multisampling& sampling) {
+    check_pixel(x, y, options);
+    const View view = scene.view(options.width, options.height);
+    return oracle::explain_samples(input_of(scene, view, profile, options, sampling), algorithm, x, y);
 }
 
 Algorithm own_algorithm(std::string name, std::function<void(pipeline::Region&)> body, bool whole_frame) {

@@ -372,8 +372,9 @@ SampledHistory explain_samples(const RunInput& input, const peeling::Algorithm& 
     for (std::size_t sample = 0; sample < recordings.size(); ++sample) {
         RunInput own = input;
         own.sampling = {};
-        pipeline::set_sample(own.options.raster, input.profile.sample_positions, input.sampling.samples, sample);
-        result.points.push_back(*own.options.raster.sample);
+        if (input.sampling.samples > 1)
+            pipeline::set_sample(own.options.raster, input.profile.sample_positions, input.sampling.samples, sample);
+        result.points.push_back(own.options.raster.sample.value_or(rasterizer::SamplePoint{}));
         result.samples.push_back(std::move(*recordings[sample]).finish(own, algorithm, in_memory).at(0));
         result.samples.back().sample = static_cast<int>(sample);
     }

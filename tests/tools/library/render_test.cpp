@@ -1,5 +1,6 @@
 // Tests the library's rendering functions: pictures against OVER of full-screen triangles, worked out by hand, and
 // results against the same calls on the modules below.
+#include <bit>
 #include <catch2/catch.hpp>
 #include <thread>
 
@@ -55,6 +56,33 @@ TEST_CASE("a pixel's history has the fragments of that pixel and the last of its
     const auto shown = passes(scene, algorithm("dual"), profile("ideal"), small);
     REQUIRE_FALSE(shown.empty());
     CHECK(shown.back().kind == oracle::PassKind::published);
+}
+
+// The left edge is in the middle of column 2, so it covers the two samples of Direct3D's four that lie right of it.
+TEST_CASE("two of four samples of a pixel at an edge give half of the surface's colour") {
+    const float left = -1.0f / 6;
+    const float quad[] = {left, -3, 0, 2, -3, 0, 2, 3, 0, left, -3, 0, 2, 3, 0, left, 3, 0};
+    Scene scene;
+    scene.add({.name = "half", .positions = {quad, 6}, .color = {1, 1, 1, 0.5f}});
+    const auto value = [](const Image& image, int x) { return std::bit_cast<float>(image.codes[image.index(x, 2)]); };
+    const DeviceProfile device = profile("ideal");
+    const Rendering picture = render(scene, algorithm("front_to_back"), device, small, {.samples = 4});
+    CHECK(value(picture.color(), 1) == 0);
+    CHECK(value(picture.color(), 2) == 0.25f);
+    CHECK(value(picture.color(), 3) == 0.5f);
+    const auto taken = layers(scene, algorithm("front_to_back"), device, small, {.samples = 4});
+    REQUIRE(taken.size() == 1);
+    CHECK(value(taken[0].color, 2) == 0.25f);
+    const auto shown = passes(scene, algorithm("front_to_back"), device, small, {.samples = 4});
+    CHECK(shown[0].targets.at(0).image.samples == 4);
+    CHECK(shown.back().targets.at(0).image == picture.color());
+    const auto history = explain_samples(scene, 2, 2, algorithm("front_to_back"), device, small, {.samples = 4});
+    std::size_t covered = 0;
+    for (const oracle::History& sample : history.samples) covered += sample.fragments.size();
+    CHECK(covered == 2);
+    CHECK(history.resolved[0] == std::bit_cast<std::uint32_t>(0.25f));
+    const auto single = explain_samples(scene, 3, 2, algorithm("front_to_back"), device, small, {});
+    CHECK(single.samples.size() == 1);
 }
 
 TEST_CASE("every algorithm on every device gives a picture or a result that throws Refused when it is read") {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "peeling/render.h"
+#include "peeling/sampled_renderer.h"
 #include "pipeline/device/check.h"
 #include "strata/names.h"
 #include "strata/picture.h"
@@ -22,6 +22,7 @@ namespace strata {
 inline namespace v0_1 {
 
 using peeling::AuditResult;
+using peeling::Multisampling;
 using peeling::RenderOptions;
 using pipeline::CapturedFragment;
 using pipeline::Diagnostic;
@@ -51,29 +52,36 @@ class Rendering {
     peeling::RenderResult result_;
 };
 
+// With several samples per pixel colour and depth are resolved, and counts are those of all samples
+// (peeling/sampled_renderer.h).
 [[nodiscard]] Rendering render(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,
-                               const RenderOptions& options = {});
+                               const RenderOptions& options = {}, const Multisampling& sampling = {});
 
 struct Layer {
     Image color, depth;           // colour premultiplied or not, as in Algorithm::premultiplied_layers
     bool is_from_behind = false;  // peeled from the far end, by an algorithm that peels both ends
 };
 
-// The layers from near to far.
+// The layers from near to far; those of several samples are resolved.
 [[nodiscard]] std::vector<Layer> layers(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,
-                                        const RenderOptions& options = {});
+                                        const RenderOptions& options = {}, const Multisampling& sampling = {});
 
 // All fragments of transparent triangles, in submission order.
 [[nodiscard]] std::vector<CapturedFragment> fragments(const Scene& scene, const Algorithm& algorithm,
                                                       const DeviceProfile& profile, const RenderOptions& options = {});
 
-// Every pass with the contents of all targets after it; the last entry is the picture.
+// Every pass with the contents of all targets after it, of all samples; the last entry is the picture.
 [[nodiscard]] std::vector<oracle::PassReport> passes(const Scene& scene, const Algorithm& algorithm,
-                                                     const DeviceProfile& profile, const RenderOptions& options = {});
+                                                     const DeviceProfile& profile, const RenderOptions& options = {},
+                                                     const Multisampling& sampling = {});
 
 // The history of pixel x, y, from the top left; oracle::to_text, to_json and to_svg format it.
 [[nodiscard]] oracle::History explain(const Scene& scene, int x, int y, const Algorithm& algorithm,
                                       const DeviceProfile& profile, const RenderOptions& options = {});
+// The histories of the pixel's samples, and its resolved value.
+[[nodiscard]] oracle::SampledHistory explain_samples(const Scene& scene, int x, int y, const Algorithm& algorithm,
+                                                     const DeviceProfile& profile, const RenderOptions& options,
+                                                     const Multisampling& sampling);
 
 // A user-defined algorithm, for the devices that have the features used by its passes. `body` is called for regions of
 // the frame (pipeline/region/region.h), on several threads at once, and for some regions twice. With `whole_frame` it
