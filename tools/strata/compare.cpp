@@ -168,7 +168,6 @@ void check_samples(const CompareOptions& options, bool is_verdict) {
     if (!is_verdict)
         throw CLI::ValidationError(
             "--samples goes with a verdict on a picture of an exact algorithm, not with --exact or --tolerance");
-    if (!options.report.empty()) throw CLI::ValidationError("--samples has no --report");
 }
 
 // Files are written first, so they exist once the text appears on standard output.

@@ -114,11 +114,11 @@ std::string with_reading(const std::string& verdict, const oracle::verdict::Form
     return document.dump(2) + '\n';
 }
 
-PlainPage page_of(const std::string& scene, const oracle::Picture& candidate, const oracle::verdict::Verdict& found,
-                  const EditMap& map, const pipeline::DrawList& list, const std::string& reading) {
+// A page with the verdict's text and the candidate.
+PlainPage verdict_page(const std::string& scene, const oracle::Picture& candidate, const std::string& verdict) {
     PlainPage page{"Verdict", std::filesystem::path(candidate.file).filename().string() + " of " +
                                   std::filesystem::path(scene).filename().string()};
-    std::istringstream lines(to_text(found, list) + reading);
+    std::istringstream lines(verdict);
     std::vector<std::string> messages;
     for (std::string line; std::getline(lines, line);) messages.push_back(line.substr(line.find_first_not_of(' ')));
     page.lead(messages[0]);
@@ -126,6 +126,12 @@ PlainPage page_of(const std::string& scene, const oracle::Picture& candidate, co
     page.items(messages);
     page.picture(oracle::as_shown(candidate),
                  "The candidate, " + std::filesystem::path(candidate.file).filename().string());
+    return page;
+}
+
+PlainPage page_of(const std::string& scene, const oracle::Picture& candidate, const oracle::verdict::Verdict& found,
+                  const EditMap& map, const pipeline::DrawList& list, const std::string& reading) {
+    PlainPage page = verdict_page(scene, candidate, to_text(found, list) + reading);
     page.picture(drawn(map), found.is_right ? "Wrong pixels: none, so all of it is black"
                                             : "What each wrong pixel composited: black is right");
     if (found.is_right) return page;
@@ -145,11 +151,27 @@ PlainPage page_of(const std::string& scene, const oracle::Picture& candidate, co
 
 namespace {
 
+PlainPage page_of(const std::string& scene, const oracle::Picture& candidate, const SamplesVerdict& verdict) {
+    PlainPage page = verdict_page(scene, candidate, to_text(verdict));
+    EditMap map{.width = verdict.form.target.width, .height = verdict.form.target.height};
+    map.of_pixel.assign(verdict.form.target.pixels(), EditMap::right);
+    const auto mark = [&map](const std::vector<std::uint32_t>& pixels, std::uint8_t as) {
+        for (const std::uint32_t pixel : pixels) map.of_pixel[pixel] = as;
+    };
+    mark(verdict.found.wrong_pixels, EditMap::unexplained);
+    mark(verdict.found.alpha.wrong_pixels, EditMap::wrong_alpha);
+    page.picture(drawn(map), verdict.found.is_right() ? "Wrong pixels: none, so all of it is black"
+                                                      : "Wrong pixels: white, or grey if alpha alone is wrong");
+    return page;
+}
+
 // The verdict on a picture with several samples per pixel.
-int compare_resolved(const SceneQuestion& question, const Session& session, const oracle::Target& colors) {
+int compare_resolved(const SceneQuestion& question, const Session& session, const oracle::Picture& candidate) {
+    const oracle::Target& colors = colors_of(candidate);
     const oracle::RunInput input{session.scene.list, session.view, session.profile, question.run.render,
                                  sampling(question.run)};
     const SamplesVerdict verdict = judge_samples(input, {colors, question.is_form_stated, question.has_alpha});
+    if (!question.report.empty()) write_page(question.report, page_of(question.run.scene, candidate, verdict));
     print(question.json ? to_json(verdict) : with_painted_verdicts(to_text(verdict)));
     return verdict.found.is_right() ? 0 : 1;
 }
@@ -159,7 +181,7 @@ int compare_resolved(const SceneQuestion& question, const Session& session, cons
 int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate) {
     const oracle::Target& colors = colors_of(candidate);
     const Session session = open_at_size(question, colors);
-    if (question.run.samples > 1) return compare_resolved(question, session, colors);
+    if (question.run.samples > 1) return compare_resolved(question, session, candidate);
     const peeling::RenderOptions& options = question.run.render;
     oracle::verdict::SceneFragments fragments{{session.scene.list, session.view, session.profile, options},
                                               options.fragment_memory};
