@@ -1,5 +1,6 @@
 // tools/strata/explain.cpp - strata explain: prints what every pass of one or more algorithms did at one pixel.
 #include <memory>
+#include <type_traits>
 
 #include "scenes/files/atomic_file.h"
 #include "tools/oracle/history_report.h"
@@ -62,7 +63,9 @@ int explain(ExplainOptions& options) {
     options.run.resolves = true;
     complete(options.run);
     check_outputs({{"--svg", options.svg, {".svg"}}});
-    const auto [x, y] = options.pixel.value_or(Pixel{});
+    // Lambdas of clang 14 capture no structured bindings.
+    const Pixel pixel = options.pixel.value_or(Pixel{});
+    const int x = pixel.x, y = pixel.y;
     const peeling::RenderOptions& render = options.run.render;
     if (!options.pixel || x >= render.width || y >= render.height)
         throw CLI::ValidationError("--pixel must be a pixel from 0,0 to " + std::to_string(render.width - 1) + "," +

@@ -9,7 +9,7 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/camera.h"
 #include "scenes/packs/pack_scene.h"
-#include "tests/tools/oracle/own_file.h"
+#include "tests/support/own_folder.h"
 #include "tools/oracle/pack/compare_packs.h"
 #include "tools/oracle/pack/golden.h"
 #include "tools/oracle/pack/state_json.h"
