@@ -36,7 +36,8 @@ std::string Diagnosed::text() const { return oracle::to_text(diagnosis, comparis
 std::string Diagnosed::json() const { return oracle::to_json(diagnosis, comparison); }
 
 Diagnosed diagnose(const Scene& scene, const Picture& candidate, const Algorithm& algorithm,
-                   const DeviceProfile& profile, const RenderOptions& options, const Tolerances& tolerances) {
+                   const DeviceProfile& profile, const RenderOptions& options, const Tolerances& tolerances,
+                   const Multisampling& sampling) {
     if (candidate.targets.empty()) throw InputError("candidate", "targets", "at least one", "none");
     RenderOptions of_candidate = options;
     of_candidate.width = candidate.targets[0].width;
@@ -44,7 +45,7 @@ Diagnosed diagnose(const Scene& scene, const Picture& candidate, const Algorithm
     const bool has_depth = std::ranges::find(candidate.targets, oracle::Meaning::depth, &oracle::Target::meaning) !=
                            candidate.targets.end();
     const View view = scene.view(of_candidate.width, of_candidate.height);
-    const oracle::MistakeRenderer mistake_renderer{{scene.list(), view, profile, of_candidate},
+    const oracle::MistakeRenderer mistake_renderer{{scene.list(), view, profile, of_candidate, sampling},
                                                    algorithm,
                                                    has_depth ? oracle::Depths::made : oracle::Depths::left_out};
     const oracle::MistakeImages mistake_images{mistake_renderer};

@@ -55,3 +55,16 @@ TEST_CASE("a candidate without a target is rejected by name") {
         strata::diagnose(scene, strata::Picture{}, strata::algorithm("dual"), strata::profile("geforce8"), frame),
         "candidate: targets: expected at least one, found none");
 }
+
+TEST_CASE("the library names the mistake of a resolved picture") {
+    const strata::Scene scene = own_triangles();
+    const auto& peel = strata::algorithm("front_to_back");
+    const auto profile = strata::profile("geforce8");
+    const strata::Multisampling four{.samples = 4};
+    const auto right = strata::render(scene, peel, profile, frame, four);
+    CHECK(strata::diagnose(scene, right.picture(), peel, profile, frame, {}, four).is_right());
+    const auto single = strata::render(scene, peel, profile, frame);
+    const auto found = strata::diagnose(scene, strata::picture_of(single.color()), peel, profile, frame, {}, four);
+    CHECK(found.mistakes() == std::vector<std::string>{"no_samples"});
+    CHECK(found.diagnosis.at_edges > 0u);
+}

@@ -33,11 +33,11 @@ struct Diagnosed {
     [[nodiscard]] std::string json() const;
 };
 
-// The candidate's size replaces that of `options`. Throws InputError for a candidate without a target, and Refused if
-// the device lacks a feature.
+// The candidate's size replaces that of `options`. `sampling`: of a resolved picture. Throws InputError for a candidate
+// without a target, and Refused if the device lacks a feature.
 [[nodiscard]] Diagnosed diagnose(const Scene& scene, const Picture& candidate, const Algorithm& algorithm,
                                  const DeviceProfile& profile, const RenderOptions& options = {},
-                                 const Tolerances& tolerances = {});
+                                 const Tolerances& tolerances = {}, const Multisampling& sampling = {});
 
 }  // namespace v0_1
 }  // namespace strata

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "pipeline/device/sample_points.h"
 #include "rasterizer/base/enum_values.h"
 
 namespace strata::oracle {
@@ -92,6 +93,22 @@ void add_formats(std::vector<Mistake>& all) {
     }
 }
 
+void add_positions(std::vector<Mistake>& all) {
+    using pipeline::SamplePositions;
+    for (const SamplePositions positions : enum_values<SamplePositions>) {
+        const auto word = enum_names<SamplePositions>[static_cast<std::size_t>(positions)];
+        all.push_back(allowed(fmt::format("sample_positions_{}", word), fmt::format("sample_positions {}", word),
+                              [positions](Experiment& e) {
+                                  const int samples = e.sampling.samples;
+                                  if (samples == 1 || e.profile.sample_positions == positions ||
+                                      pipeline::sample_points(positions, samples).empty())
+                                      return false;
+                                  e.profile.sample_positions = positions;
+                                  return true;
+                              }));
+    }
+}
+
 void add_profile(std::vector<Mistake>& all, const DeviceProfile& profile) {
     all.push_back(allowed("profile_" + profile.name, fmt::format("profile {}", profile.name), [profile](Experiment& e) {
         if (e.profile == profile) return false;
@@ -169,6 +186,7 @@ std::vector<Mistake> machine_options(const peeling::Algorithm& algorithm, const 
     std::vector<Mistake> all;
     add_blends(all);
     add_formats(all);
+    add_positions(all);
     for (const DeviceProfile& profile : more) add_profile(all, profile);
     for (const DeviceProfile& profile : pipeline::builtin_profiles()) add_profile(all, profile);
     add_limits(all, algorithm, right);

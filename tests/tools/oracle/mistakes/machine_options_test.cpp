@@ -73,6 +73,22 @@ TEST_CASE("options are listed before mistakes and allowed ones are accepted and 
     CHECK(mistake_images.diagnose(bench.with("culls_front")).findings.front().mistakes[0]->name == "culls_front");
 }
 
+TEST_CASE("a resolved picture with other sample positions is right under that option") {
+    const SceneFixture bench{"samples.front_to_back"};
+    const std::vector<Mistake> all = machine_options(*bench.opened.algorithm, bench.mistake_renderer.right_run());
+    const MistakeImages mistake_images{bench.mistake_renderer, {}, all};
+    OpenScene other = open(*find_suite_scene("samples.front_to_back"));
+    other.profile.sample_positions = pipeline::SamplePositions::nv20;
+    const Diagnosis found = mistake_images.diagnose(MistakeRenderer{other.input(), *other.algorithm}.right());
+    CHECK(found.verdict == Verdict::other_options);
+    CHECK(names(found.findings.front(), "sample_positions_nv20"));
+    const SceneFixture single{"random.front_to_back"};
+    for (const char* name : {"sample_positions_nv20", "sample_positions_standard"}) {
+        CHECK_FALSE(single.mistake_renderer.with(option_of(all, name)));
+    }
+    CHECK_FALSE(bench.mistake_renderer.with(option_of(all, "sample_positions_standard")));
+}
+
 TEST_CASE("two simultaneous options are found and accepted if both are allowed") {
     const SceneFixture bench{"showroom.dual"};
     const std::vector<Mistake> all = machine_options(*bench.opened.algorithm, bench.mistake_renderer.right_run());
