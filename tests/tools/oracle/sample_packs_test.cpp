@@ -49,7 +49,8 @@ TEST_CASE("a pack of all samples has their passes and the resolved picture and i
     const auto set = GENERATE(as<int>{}, 0, 1, 2, 3);
     Golden golden = sampled_golden({.samples = set == 0 ? 2 : 4});
     if (set == 1) golden.options.raster.interpolation = rasterizer::Interpolation::centroid;
-    if (set == 2) golden.sampling.loads = golden.sampling.composites = pipeline::LoadedSample::resolved;
+    if (set == 2) golden.sampling.loads = pipeline::LoadedSample::resolved;
+    if (set == 2) golden.sampling.composites = pipeline::LoadedSample::zero;
     if (set == 3) golden.options.raster.sample_coverage = {.by_alpha = true, .value = 0.75f, .mask = 13};
     const peeling::Algorithm& algorithm = *golden.algorithms[0];
     golden.options.keep_layers = true;
@@ -76,6 +77,7 @@ TEST_CASE("a pack of all samples has their passes and the resolved picture and i
           state_json({golden.options, golden.sampling}, golden.profile));
     CHECK(back.sampling.samples == golden.sampling.samples);
     CHECK(back.sampling.loads == golden.sampling.loads);
+    CHECK(back.sampling.composites == golden.sampling.composites);
     CHECK(back.options.raster.interpolation == golden.options.raster.interpolation);
     CHECK(back.options.raster.sample_coverage == golden.options.raster.sample_coverage);
     CHECK(check_pack(pack).empty());
