@@ -60,6 +60,9 @@ TEST_CASE("with pixel shading the values of a pixel's centre or centroid are tho
         INFO(place << ": " << right.out << right.err);
         CHECK(right.status == 0);
         CHECK(judged(folder, {"--profile", "ideal"}).status == 1);
+        // Its program multiplies by alphas beyond 1 before they are clamped.
+        draw(folder, "--profile ideal --algorithm dual --color-format rgba8 --shading pixel --interpolate " + place);
+        CHECK(judged(folder, {"--profile", "ideal", "--shading", "pixel", "--interpolate", place}).status == 0);
     }
 }
 

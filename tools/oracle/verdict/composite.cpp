@@ -183,24 +183,23 @@ Compositor::Operand Compositor::operand(const Means& means, const Layer& layer, 
     o.alpha = clamped(stored(alpha));
     o.is_premultiplied = source == Source::premultiplied || source == Source::premultiplied_either_way ||
                          source == Source::premultiplied_truncated;
+    const double excess = std::max(1.0, double{layer.color[3]});  // of alpha
     for (std::size_t c = 0; c < 3; ++c) {
         const Interval color = given(layer.color[c]);
+        // A program multiplies before its result is clamped: interpolation beyond an edge may exceed 1.
+        const bool is_beyond = has_codes && (excess > 1 || layer.color[c] > 1 || layer.color[c] < 0);
+        const Interval unclamped = is_beyond ? Interval::of(double{layer.color[c]} * excess).widened(slack) : color;
         if (!o.is_premultiplied) {
-            o.color[c] = source == Source::unrounded ? hull(color, Interval::of(layer.color[c])) : stored(color);
+            o.color[c] = source == Source::unrounded ? hull(color, unclamped) : stored(color);
             continue;
         }
         // The product is first rounded to binary32; without slack that product is known exactly.
+        const float known_color = has_codes ? std::clamp(layer.color[c], 0.0f, 1.0f) : layer.color[c];
+        const bool is_known = slack == 0 && source == Source::premultiplied;
         Interval product = color * alpha;
-        if (slack == 0 && source == Source::premultiplied) {
-            const float clamped_color = has_codes ? std::min(std::max(layer.color[c], 0.0f), 1.0f) : layer.color[c];
-            product = Interval::of(clamped_color * layer.color[3]);
-        } else {
-            product = product.widened(product.magnitude() * 0x1p-23);
-        }
-        // A program multiplies before its result is clamped: interpolation beyond an edge may exceed 1.
-        if (has_codes && (std::max(layer.color[c], layer.color[3]) > 1 || layer.color[c] < 0))
-            product =
-                hull(product, Interval::of(layer.color[c]).widened(slack) * hull(alpha, Interval::of(layer.color[3])));
+        product =
+            is_known ? Interval::of(known_color * layer.color[3]) : product.widened(product.magnitude() * 0x1p-23);
+        if (is_beyond) product = hull(product, unclamped * alpha);
         o.color[c] = stored(product);
     }
     return o;
