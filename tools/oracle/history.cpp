@@ -370,12 +370,12 @@ SampledHistory explain_samples(const RunInput& input, const peeling::Algorithm& 
     const pipeline::Image picture = observe(everything, algorithm, observers);
     SampledHistory result{.sampling = input.sampling, .format = picture.format};
     for (std::size_t sample = 0; sample < recordings.size(); ++sample) {
-        RunInput own = input;
-        own.sampling = {};
+        RunInput single = input;
+        single.sampling = {};
         if (input.sampling.samples > 1)
-            pipeline::set_sample(own.options.raster, input.profile.sample_positions, input.sampling.samples, sample);
-        result.points.push_back(own.options.raster.sample.value_or(rasterizer::SamplePoint{}));
-        result.samples.push_back(std::move(*recordings[sample]).finish(own, algorithm, in_memory).at(0));
+            pipeline::set_sample(single.options.raster, input.profile.sample_positions, input.sampling.samples, sample);
+        result.points.push_back(single.options.raster.sample.value_or(rasterizer::SamplePoint{}));
+        result.samples.push_back(std::move(*recordings[sample]).finish(single, algorithm, in_memory).at(0));
         result.samples.back().sample = static_cast<int>(sample);
     }
     for (int c = 0; c < picture.channels(); ++c) result.resolved.push_back(picture.codes[picture.index(x, y, c)]);

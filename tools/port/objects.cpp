@@ -247,10 +247,10 @@ Image read_samples(GLuint texture, const Format& format, Size size) {
     Image all{format, size, std::vector<std::uint8_t>(size.area() * pixel * static_cast<std::size_t>(samples)),
               samples};
     for (int sample = 0; sample < samples; ++sample) {
-        const Image one = read_sample(texture, sample, format, size);
+        const Image part = read_sample(texture, sample, format, size);
         for (std::size_t i = 0; i < size.area(); ++i)
             std::memcpy(&all.bytes[(i * static_cast<std::size_t>(samples) + static_cast<std::size_t>(sample)) * pixel],
-                        &one.bytes[i * pixel], pixel);
+                        &part.bytes[i * pixel], pixel);
     }
     return all;
 }

@@ -77,7 +77,7 @@ def all_at_once(build, folder, words, profile, driver, shading):
     said = json.loads(packs.run([build / "strata", "compare", pack.folder, candidate, "--exact", "--json"], allowed=(0, 1)))
     shutil.rmtree(pack.folder)
     shutil.rmtree(candidate)
-    return sum(not one["equal"] or one["passes_compared"] != len(pack.results[one["algorithm"]]["passes"]) for one in said)
+    return sum(not of["equal"] or of["passes_compared"] != len(pack.results[of["algorithm"]]["passes"]) for of in said)
 
 
 def measure(build, words, profile, driver):

@@ -50,9 +50,9 @@ TEST_CASE("the histories of a pixel's samples are those of their own frames and 
                     CHECK(composited(sample) == composited(alone));
                     CHECK(sample.sample == static_cast<int>(s));
                     CHECK(history.points[s] == pipeline::sample_points(input.profile.sample_positions, samples)[s]);
-                    const std::vector<std::uint32_t>& own = sample.lines.back().held.at(0).before;
-                    CHECK(own == alone.lines.back().held.at(0).before);
-                    for (std::size_t c = 0; c < 4; ++c) sums[c] += own[c];
+                    const std::vector<std::uint32_t>& codes = sample.lines.back().held.at(0).before;
+                    CHECK(codes == alone.lines.back().held.at(0).before);
+                    for (std::size_t c = 0; c < 4; ++c) sums[c] += codes[c];
                     fragments += static_cast<int>(sample.fragments.size());
                     differing += s > 0 && sample.fragments.size() != history.samples[0].fragments.size() ? 1 : 0;
                 }

@@ -57,12 +57,12 @@ peeling::RenderResult resolved_frame(SampledScene& l, const peeling::Algorithm& 
 }
 
 pipeline::Image sample_image(const pipeline::Image& all, int sample) {
-    pipeline::Image one{all.format, all.width, all.height};
+    pipeline::Image part{all.format, all.width, all.height};
     for (int y = 0; y < all.height; ++y)
         for (int x = 0; x < all.width; ++x)
             for (int c = 0; c < all.channels(); ++c)
-                one.codes[one.index(x, y, c)] = all.codes[all.index(x, y, c, sample)];
-    return one;
+                part.codes[part.index(x, y, c)] = all.codes[all.index(x, y, c, sample)];
+    return part;
 }
 
 // The passes of the loop: those at the end, which composite once, have another number where a frame ends earlier.
@@ -120,9 +120,9 @@ TEST_CASE("sample s of every target is that of the frame of sample s alone") {
                 // Counts are sums over the samples.
                 for (std::size_t k = 0; k < shared; ++k) {
                     std::uint64_t passed = 0, tallied = 0, counted = 0;
-                    for (const auto& one : alone) {
-                        passed += one[k].passed, tallied += one[k].tallied;
-                        for (const Query& query : one[k].queries) counted += query.count;
+                    for (const auto& frame : alone) {
+                        passed += frame[k].passed, tallied += frame[k].tallied;
+                        for (const Query& query : frame[k].queries) counted += query.count;
                     }
                     CHECK(joint[k].passed == passed);
                     CHECK(joint[k].tallied == tallied);

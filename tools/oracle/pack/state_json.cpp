@@ -97,9 +97,10 @@ void sampling(Io& io, std::optional<SampledState>& given) {
         outer.nested(key, state, [](auto& inner, auto& s) {
             inner.choice("interpolation", s.interpolation);
             inner.list("samples", s.points, [](auto& each, auto& point) { point_fields(each, point); });
-            inner.if_any("number", s.number, [](auto& one, const std::string& k, auto& v) { one.whole(k, v, 0, 7); });
-            inner.if_any("all", s.all, [](auto& one, const std::string& k, auto& v) {
-                one.nested(k, v, [](auto& fields, auto& all) {
+            inner.if_any("number", s.number,
+                         [](auto& object, const std::string& k, auto& v) { object.whole(k, v, 0, 7); });
+            inner.if_any("all", s.all, [](auto& object, const std::string& k, auto& v) {
+                object.nested(k, v, [](auto& fields, auto& all) {
                     fields.choice("resolve", all.resolve);
                     fields.choice("loads", all.loads);
                     fields.choice("composites", all.composites);

@@ -88,10 +88,11 @@ std::vector<double> numbers_of(Map map, const RunOptions& options, const Complet
     const auto sum = [&](const auto& count) { return sum_of_samples(finished, count); };
     switch (map) {
         case Map::depth_complexity:
-            return sum([&](peeling::Renderer& one) { return complexity(columns_of_frame(options, one)); });
-        case Map::ties: return sum([&](peeling::Renderer& one) { return ties(columns_of_frame(options, one)); });
+            return sum([&](peeling::Renderer& renderer) { return complexity(columns_of_frame(options, renderer)); });
+        case Map::ties:
+            return sum([&](peeling::Renderer& renderer) { return ties(columns_of_frame(options, renderer)); });
         case Map::opaque_ties:
-            return sum([&](peeling::Renderer& one) { return opaque_ties(options, finished.algorithm, one); });
+            return sum([&](peeling::Renderer& renderer) { return opaque_ties(options, finished.algorithm, renderer); });
         case Map::error: return errors(options, finished);
     }
     return {};  // unreachable: the enum is closed
