@@ -93,6 +93,7 @@ std::string distinguishing_command(const oracle::verdict::Verdict& found) {
         if (is_of_any_scene(c.account.rules)) rules.push_back(c.account.rules);
     if (rules.size() < 2) return "";
     for (const oracle::SuiteScene& scene : oracle::suite()) {
+        if (scene.samples > 1) continue;  // the rules are about pictures of one
         const oracle::OpenScene opened = open(scene);
         const oracle::verdict::SceneFragments fragments{opened.input(), opened.options.fragment_memory};
         if (distinguishes(fragments, rules)) return command_of(scene);
