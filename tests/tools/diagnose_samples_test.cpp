@@ -62,6 +62,22 @@ TEST_CASE("diagnose names a step of the peel in a resolved picture and two mista
     }
 }
 
+TEST_CASE("a peel without an end that a port stops is named with the port's limit of passes and a hint asks for it") {
+    const Folder folder;
+    const std::string scene = "random:seed=3,triangles=60 --size 32x24 --samples 4 --algorithm front_to_back ";
+    REQUIRE(shell(folder, "strata render " + scene +
+                              "--shading pixel --load-sample 0 --max-passes 40 --no-audit -q -o port.png")
+                .status == 0);
+    const CommandResult unknown = shell(folder, "strata diagnose " + scene + "port.png");
+    INFO(unknown.out << unknown.err);
+    CHECK(unknown.out.starts_with("none that is known: "));
+    CHECK(unknown.out.find("--limit N states it\n") != std::string::npos);
+    const CommandResult found = shell(folder, "strata diagnose " + scene + "port.png --limit 40");
+    INFO(found.out << found.err);
+    CHECK(found.out.substr(0, found.out.find('\n')).ends_with("(pixel_shading_loads_sample_0)"));
+    CHECK(found.out.find("--limit N") == std::string::npos);
+}
+
 TEST_CASE("a resolved picture that no emulation equals is right by its layers if it is the mean of right samples") {
     const Folder folder;
     REQUIRE(

@@ -97,6 +97,14 @@ std::string hint_of_tolerance(const Diagnosis& d, const Comparison& comparison) 
                        most == 1 ? "1 code" : fmt::format("{} codes", most), most);
 }
 
+// Peels with mistakes of samples may find layers again without end, and stop anywhere.
+std::string hint_of_limit(const Diagnosis& d) {
+    const Finding& best = d.findings.front();
+    if (!d.at_edges || d.verdict != Verdict::unknown_mistake || best.mistakes.empty()) return "";
+    if (2 * best.explained < d.differing) return "";
+    return "  if the port's peel is stopped by a number of geometry passes, --limit N states it\n";
+}
+
 }  // namespace
 
 std::string description_of(const std::vector<const Mistake*>& mistakes) {
@@ -125,7 +133,7 @@ std::string to_text(const Diagnosis& d, const Comparison& comparison) {
     text += line_of_edges(d);
     if (!best.mistakes.empty()) text += line_of(best.passes, "that machine");
     text += line_of(d.right_passes, "a correct implementation");
-    text += hint_of_tolerance(d, comparison);
+    text += hint_of_tolerance(d, comparison) + hint_of_limit(d);
     if (d.is_nearly) text += fmt::format("  to the last code: {} of the {} that differ\n", best.explained, d.differing);
     for (const Mistake* mistake : best.alike)
         text += fmt::format("  the same picture of this scene{}: {} ({})\n", best.passes ? ", and passes alike" : "",
