@@ -102,8 +102,8 @@ const std::vector<Mistake> all{
 };
 
 const std::vector<Mistake> of_samples{
-    {"layers_resolved", "front_to_back", "every layer is resolved before it is composited, once a pixel",
-     [](PortSettings& w) { w.sampled.layers_resolved = true; }},
+    {"layers_resolved", "front_to_back", "every layer and what is behind are resolved, then composited once a pixel",
+     [](PortSettings& w) { w.sampled.layers_resolved = w.sampled.opaque_resolved = true; }},
     {"peels_sample_0", "front_to_back", "texelFetch(..., 0): the peel compares all samples with the depth of sample 0",
      [](PortSettings& w) { w.sampled.loads.geometry = "0"; }},
     {"composites_sample_0", "front_to_back", "the full-screen passes load sample 0 for all samples",
