@@ -197,3 +197,103 @@ TEST_CASE("values at centre and centroid are those of exact planes and codes tho
             if (interpolation == Interpolation::centroid) CHECK(faults.outside == 0);
         }
 }
+
+namespace {
+
+constexpr UnitMask shaded_units = 0xf241;  // components of all four units
+constexpr std::size_t shaded_unit_values = 4 * texture_units;
+
+struct ShadedValues {
+    std::uint32_t code = 0, reference_code = 0;
+    double reference_z = 0;
+    std::vector<float> attributes;  // colour, coordinates and the values of units
+};
+using ShadedFragments = std::map<std::array<int, 3>, ShadedValues>;  // by primitive, x and y
+
+[[nodiscard]] ShadedFragments shaded_fragments(const TriangleSoup& soup, const RasterState& state,
+                                               const RasterRules& rules) {
+    const FragmentNeeds needs{.texcoord = true, .reference = true, .units = shaded_units};
+    const Geometry geometry = set_up(soup, state, rules, 1);
+    ShadedFragments found;
+    TileRasterizer rasterizer{state.viewport};
+    auto sink = [&](FragmentBatch& batch) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+            ShadedValues& values = found[{static_cast<int>(batch.primitive[i]), batch.x[i], batch.y[i]}];
+            values.code = batch.code[i];
+            values.reference_code = batch.reference_code[i], values.reference_z = batch.reference_z[i];
+            for (std::size_t c = 0; c < 4; ++c) values.attributes.push_back(batch.color[c][i]);
+            for (std::size_t c = 0; c < 2; ++c) values.attributes.push_back(batch.texcoord[c][i]);
+            for (std::size_t u = 0; u < texture_units; ++u)
+                for (std::size_t c = 0; c < 4; ++c)
+                    if (names(shaded_units, u, c)) values.attributes.push_back(batch.unit[u][c][i]);
+        }
+    };
+    rasterizer.draw(geometry, geometry.all_triangles, {DepthPath::float32, DepthFormat::d24, DepthPath::window_z},
+                    needs, BatchSink{sink});
+    return found;
+}
+
+}  // namespace
+
+// A fragment of the frame at another point of the pixel has the values of that point. With four samples around it a
+// centre is covered where all of them are.
+TEST_CASE("attributes and compared depths are those of the frame at the point of the pixel where they are evaluated") {
+    TriangleSoup soup = soup_with_slivers(SoupKind::perspective);
+    Random random{2033};
+    soup.extras = {.stride = shaded_unit_values, .has_rq = false, .has_units = true, .values = {}};
+    for (std::size_t i = 0; i < soup.vertices.size() * shaded_unit_values; ++i)
+        soup.extras.values.push_back(random_float(random, -9, 9));
+    const RasterRules of_clipped{}, of_given{.plane_rule = PlaneRule::greatest_w, .plane_corners = PlaneCorners::given};
+    for (const RasterRules& rules : {of_clipped, of_given}) {
+        std::vector<ShadedFragments> frames;
+        for (std::size_t s = 0; s < four_points.size(); ++s)
+            frames.push_back(shaded_fragments(soup, shaded_state(s, Interpolation::sample), rules));
+        RasterState at_centre = shaded_state(0, Interpolation::sample);
+        at_centre.sample = SamplePoint{};
+        const ShadedFragments centre = shaded_fragments(soup, at_centre, rules);
+        std::uint64_t codes = 0, references = 0, attributes = 0, whole = 0, cut = 0;
+        const auto shaded = shaded_fragments(soup, shaded_state(3, Interpolation::centroid), rules);
+        for (const auto& [key, values] : shaded) {
+            codes += values.code != frames[3].at(key).code ? 1 : 0;
+            if (const auto found = centre.find(key); found != centre.end())
+                references += values.reference_code != found->second.reference_code ||
+                                      values.reference_z != found->second.reference_z
+                                  ? 1
+                                  : 0;
+            const auto covers = [&k = key](const ShadedFragments& frame) { return frame.contains(k); };
+            const bool is_whole = std::ranges::all_of(frames, covers);
+            const ShadedFragments& point = is_whole ? centre : *std::ranges::find_if(frames, covers);
+            attributes += values.attributes != point.at(key).attributes ? 1 : 0;
+            ++(is_whole ? whole : cut);
+        }
+        INFO(static_cast<int>(rules.plane_rule));
+        CHECK(shaded.size() == frames[3].size());
+        CHECK(codes == 0);
+        CHECK(references == 0);
+        CHECK(attributes == 0);
+        CHECK(whole > 500);
+        CHECK(cut > 100);
+    }
+}
+
+// A sample is in the depth range, or is not, by its own depth.
+TEST_CASE("where fragments are clipped to the depth range a pixel's shading keeps those of the sample's own frame") {
+    TriangleSoup soup = soup_with_slivers(SoupKind::perspective);
+    for (std::size_t v = 0; v < soup.vertices.size(); v += 2) soup.vertices[v].z *= 1.5f;
+    const RasterRules rules{.z_clip = ZClip::per_fragment};
+    const auto fragments = [&](Interpolation interpolation) {
+        return draw(set_up(soup, shaded_state(3, interpolation), rules, 1)).fragments;
+    };
+    const std::vector<Fragment> own = fragments(Interpolation::sample);
+    for (const Interpolation interpolation : {Interpolation::centre, Interpolation::centroid}) {
+        const std::vector<Fragment> shaded = fragments(interpolation);
+        REQUIRE(shaded.size() == own.size());
+        std::uint64_t wrong = 0, outside = 0;
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            wrong += shaded[i].x != own[i].x || shaded[i].y != own[i].y || shaded[i].code != own[i].code ? 1 : 0;
+            outside += shaded[i].shader_z < 0 || shaded[i].shader_z > 1 ? 1 : 0;
+        }
+        CHECK(wrong == 0);
+        CHECK(outside > 0);
+    }
+}
