@@ -10,6 +10,7 @@ namespace strata::oracle {
 namespace {
 
 using pipeline::LoadedSample;
+using pipeline::ShareRounding;
 using rasterizer::Interpolation;
 
 // Programs that load another sample than their own.
@@ -29,6 +30,18 @@ bool shades_at(Experiment& e, Interpolation place) {
 
 bool shades_pixels_and_loads(Experiment& e, Interpolation place, LoadedSample in_peels) {
     return shades_at(e, place) && loads(e, in_peels, e.sampling.composites);
+}
+
+bool covers_by_alpha(Experiment& e) {
+    if (e.sampling.samples == 1 || e.options.raster.sample_coverage.by_alpha) return false;
+    return e.options.raster.sample_coverage.by_alpha = true;
+}
+
+// ARB_multisample leaves the number of samples to the device.
+bool covers_by_alpha_rounded(Experiment& e, ShareRounding rounding) {
+    if (e.profile.alpha_to_coverage == rounding || !covers_by_alpha(e)) return false;
+    e.profile.alpha_to_coverage = rounding;
+    return true;
 }
 
 // The mean of decoded sRGB values, encoded; alpha is linear.
@@ -70,10 +83,14 @@ const Mistake sample_mistakes[] = {
      "the resolved depth of the last layer compared with: fragments doubled wherever depth slopes",
      ChangedPart::samples, [](Experiment& e) { return loads(e, LoadedSample::resolved, e.sampling.composites); }},
     {"alpha_to_coverage_on", "alpha to coverage left on, so that alpha counts twice", ChangedPart::samples,
-     [](Experiment& e) {
-         if (e.sampling.samples == 1 || e.options.raster.sample_coverage.by_alpha) return false;
-         return e.options.raster.sample_coverage.by_alpha = true;
-     }},
+     covers_by_alpha},
+    {"alpha_to_coverage_on_nearest",
+     "alpha to coverage left on, of a device that rounds the number of samples to nearest", ChangedPart::samples,
+     [](Experiment& e) { return covers_by_alpha_rounded(e, ShareRounding::nearest); }},
+    {"alpha_to_coverage_on_up", "alpha to coverage left on, of a device that rounds the number of samples up",
+     ChangedPart::samples, [](Experiment& e) { return covers_by_alpha_rounded(e, ShareRounding::up); }},
+    {"alpha_to_coverage_on_down", "alpha to coverage left on, of a device that rounds the number of samples down",
+     ChangedPart::samples, [](Experiment& e) { return covers_by_alpha_rounded(e, ShareRounding::down); }},
     {"pixel_shading", "programs run once a pixel, so that samples near an edge peel a layer twice or not at all",
      ChangedPart::samples, [](Experiment& e) { return shades_at(e, Interpolation::centre); }},
     {"pixel_shading_loads_sample_0",

@@ -55,20 +55,22 @@ void add_fixed_passes(std::vector<SuiteScene>& all) {
 }
 
 void add_samples(std::vector<SuiteScene>& all) {
-    const auto add = [&](const char* algorithm, const char* why) {
-        all.push_back({.name = std::string{"samples."} + algorithm,
+    const auto add = [&](const char* name, const char* algorithm, const char* why, const char* profile = "geforce8") {
+        all.push_back({.name = name,
                        .why = why,
                        .scene = "random:seed=7,triangles=60",
                        .algorithm = algorithm,
+                       .profile = profile,
                        .width = 32,
                        .height = 32,
                        .samples = 4,
                        .options = blue,
                        .set = on_blue});
     };
-    add("front_to_back", "four samples per pixel: edges where they have different layers");
-    add("dual", "the same, where the depths that are compared are colours");
-    add("unsorted", "the same without programs that load a sample");
+    add("samples.front_to_back", "front_to_back", "four samples per pixel: edges where they have different layers");
+    add("samples.dual", "dual", "the same, where the depths that are compared are colours");
+    add("samples.unsorted", "unsorted", "the same without programs that load a sample");
+    add("samples.llvmpipe", "front_to_back", "the same, where alpha to coverage rounds up", "llvmpipe");
 }
 
 std::vector<SuiteScene> scenes_of_suite() {

@@ -50,7 +50,8 @@ TEST_CASE("mistakes with samples are named in a scene of four samples and no oth
     CHECK(shown > 40);
     for (std::size_t m = 0; m < mistakes_of_samples().size(); ++m) {
         INFO(catalogue()[m].name);
-        CHECK((column.cells[m] == Cell::named || column.cells[m] == Cell::alike));
+        const bool is_own_rule = catalogue()[m].name == "alpha_to_coverage_on_nearest";  // of this scene's profile
+        CHECK((column.cells[m] == Cell::named || column.cells[m] == Cell::alike) != is_own_rule);
     }
 }
 
