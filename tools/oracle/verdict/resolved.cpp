@@ -82,7 +82,8 @@ class Resolve {
         std::array<Interval, 3> sum{};
         for (const Stack& stack : samples) {
             const ReachableColor reach = compositor_.reach(stack);
-            for (std::size_t c = 0; c < 3; ++c) sum[c] = sum[c] + reach[c];
+            const double more = through_by_excess(stack);
+            for (std::size_t c = 0; c < 3; ++c) sum[c] = sum[c] + (more > 0 ? reach[c].widened(more) : reach[c]);
         }
         const auto share = Interval::of(1 / static_cast<double>(samples.size()));  // exact: a power of two
         for (Interval& channel : sum) channel = channel * share;
@@ -104,6 +105,22 @@ class Resolve {
     }
 
   private:
+    // The compositor clamps alpha to 1; floats do not. A layer of alpha 1 + e adds e (its colour - what is behind it).
+    [[nodiscard]] double through_by_excess(const Stack& stack) const {
+        const Hypothesis& h = compositor_.hypothesis();
+        if (has_codes(h.front.storage) && has_codes(h.back.storage)) return 0;
+        double excess = 0, greatest = 1;
+        const auto add = [&greatest](const Rgba& color) {
+            for (std::size_t c = 0; c < 4; ++c) greatest = std::max(greatest, std::fabs(double{color[c]}));
+        };
+        add(stack.background);
+        for (const Layer& layer : stack.layers) {
+            excess += std::max(0.0, double{layer.color[3]} - 1);
+            add(layer.color);
+        }
+        return 2 * excess * greatest * (1 + excess);
+    }
+
     Compositor compositor_;
     double unit_;
     double codes_;  // the error of a stored code: half of one, and another half if it was divided by alpha

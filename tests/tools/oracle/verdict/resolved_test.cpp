@@ -62,10 +62,11 @@ TEST_CASE("the mean of right samples is right where a profile interpolates beyon
         OpenedScene opened{scene, 48, 36};
         opened.profile = *pipeline::find_profile("llvmpipe");
         for (const std::string algorithm : {"front_to_back", "dual"}) {
-            const ResolvedVerdict verdict =
-                judged_samples(opened, resolved(opened, algorithm, pipeline::Format::rgba8));
-            INFO(scene << ' ' << algorithm << ": " << to_text(verdict, 48));
-            CHECK(verdict.is_right());
+            for (const pipeline::Format format : {pipeline::Format::rgba8, pipeline::Format::rgba32f}) {
+                const ResolvedVerdict verdict = judged_samples(opened, resolved(opened, algorithm, format));
+                INFO(scene << ' ' << algorithm << ": " << to_text(verdict, 48));
+                CHECK(verdict.is_right());
+            }
         }
     }
 }
