@@ -114,9 +114,9 @@ void GpuScene::add_runs(const Mesh& mesh) {
 
 void GpuScene::draw(Surfaces surfaces) const {
     const SampledSettings& sampled = settings_.sampled;
-    const bool is_wrong = surfaces == Surfaces::transparent;
-    if (is_wrong && sampled.alpha_to_coverage) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
-    if (is_wrong && ~sampled.mask != 0) {
+    const bool is_transparent = surfaces == Surfaces::transparent;
+    if (is_transparent && sampled.alpha_to_coverage) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+    if (is_transparent && ~sampled.mask != 0) {
         glEnable(GL_SAMPLE_MASK);
         glSampleMaski(0, sampled.mask);
     }

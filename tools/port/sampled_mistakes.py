@@ -137,9 +137,9 @@ def answer(row):
 
 def faults(right, wrong):
     """What the exit status reports."""
-    found = [f"{' '.join(row[:3])}: a right picture is called wrong" for row in right if row[3] == "wrong" or row[4] not in RIGHT]
-    found += [f"{' '.join(row[:3])}: a wrong picture is called right" for row in wrong if row[3] == "right" or row[4] in RIGHT]
-    return found + [f"{' '.join(row[:3])}: not named" for row in wrong if (row[0], row[2]) in QUICK and row[1] == "teapot" and answer(row) != "named"]
+    lines = [f"{' '.join(row[:3])}: a right picture is called wrong" for row in right if row[3] == "wrong" or row[4] not in RIGHT]
+    lines += [f"{' '.join(row[:3])}: a wrong picture is called right" for row in wrong if row[3] == "right" or row[4] in RIGHT]
+    return lines + [f"{' '.join(row[:3])}: not named" for row in wrong if (row[0], row[2]) in QUICK and row[1] == "teapot" and answer(row) != "named"]
 
 
 def page(trial, right, wrong, words):
@@ -184,9 +184,9 @@ def main():
             right = right_rows(trial)
             wrong = wrong_rows(trial, [(m, scene, algorithm) for m, (algorithms, _) in MISTAKES.items() for scene in SCENES for algorithm in algorithms])
             options.out.write_text(page(trial, right, wrong, words))
-    found = faults(right, wrong)
-    print(*found, sep="\n", file=sys.stderr)
-    return 1 if found or len(wrong) < len(QUICK) else 0
+    messages = faults(right, wrong)
+    print(*messages, sep="\n", file=sys.stderr)
+    return 1 if messages or len(wrong) < len(QUICK) else 0
 
 
 if __name__ == "__main__":
