@@ -273,3 +273,32 @@ TEST_CASE("a ratio of samples counted together is one of all samples") {
     instruments[1].observer = nullptr;
     CHECK_THROWS_AS(renderer.render(*find_algorithm("front_to_back"), {}, nullptr, instruments), std::invalid_argument);
 }
+
+TEST_CASE("counts of a sampled frame are the sums and greatest counts of its samples") {
+    bool has_greater_before_last = false;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        const TriangleScene scene = random_triangles(1300 + seed, 16, 0.3f);
+        const Machine machine{"geforce8", "painter"}, peel{"geforce8", "front_to_back"};
+        RenderOptions options = sampled_options();
+        options.counters = true;
+        for (const Machine& one : {machine, peel}) {
+            const auto result = sampled(scene, one, options, 4).result;
+            std::uint64_t order_errors = 0, passed = 0;
+            int iterations = 0, full_screen = 0;
+            for (std::size_t s = 0; s < 4; ++s) {
+                const RenderResult own = own_frame(scene, one, options, 4, s);
+                order_errors += own.audit.order_errors.value_or(0);
+                passed += own.frame.counters->fragments_rasterized;
+                has_greater_before_last |= s == 3 && own.frame.iterations < iterations;
+                iterations = std::max(iterations, static_cast<int>(own.frame.iterations));
+                full_screen = std::max(full_screen, static_cast<int>(own.frame.passes.full_screen));
+            }
+            INFO(seed << ' ' << one.algorithm);
+            CHECK(result.audit.order_errors == order_errors);
+            CHECK(result.frame.counters->fragments_rasterized == passed);
+            CHECK(static_cast<int>(result.frame.iterations) == iterations);
+            CHECK(static_cast<int>(result.frame.passes.full_screen) == full_screen);
+        }
+    }
+    CHECK(has_greater_before_last);
+}
