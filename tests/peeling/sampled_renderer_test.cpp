@@ -100,6 +100,28 @@ TEST_CASE("a frame of one sample is the frame at the pixel centre as without sam
     CHECK(one.result.frame.depth == plain.frame.depth);
 }
 
+TEST_CASE("a frame of one sample has no sample coverage") {
+    const TriangleScene scene = random_triangles(1202, 20);
+    const Machine machine{"geforce8", "front_to_back"};
+    RenderOptions options = sampled_options();
+    const RenderResult all = sampled(scene, machine, options, 1).result;
+    options.raster.sample_coverage.mask = 0;
+    CHECK(sampled(scene, machine, options, 1).result.frame.color == all.frame.color);
+}
+
+TEST_CASE("under reversed depth the depth of a sampled frame is the greatest of its samples") {
+    const TriangleScene scene = random_triangles(1203, 40);
+    const Machine machine{"geforce8", "front_to_back"};
+    RenderOptions options = sampled_options();
+    options.raster.depth_order = strata::rasterizer::DepthOrder::greater;
+    strata::pipeline::ImageCodes greatest(61 * 47, 0);
+    for (std::size_t s = 0; s < 4; ++s) {
+        const strata::pipeline::ImageCodes own = own_frame(scene, machine, options, 4, s).frame.depth.codes;
+        for (std::size_t i = 0; i < own.size(); ++i) greatest[i] = std::max(greatest[i], own[i]);
+    }
+    CHECK(sampled(scene, machine, options, 4).result.frame.depth.codes == greatest);
+}
+
 TEST_CASE("every execution and tile size draws the same samples") {
     const TriangleScene scene = random_triangles(1203, 40);
     for (const char* algorithm : {"front_to_back", "dual", "k_buffer"}) {
@@ -173,21 +195,26 @@ TEST_CASE("Quincunx is available only on GeForce3 with two samples") {
     const TriangleScene scene = random_triangles(1206, 20);
     const auto& algorithm = *find_algorithm("depth_units");
     using strata::pipeline::Resolve;
-    SampledRenderer renderer{
-        scene.list, scene.view, *find_profile("geforce3"), sampled_options(), {2, Resolve::quincunx}};
-    std::vector<Image> colors;
-    const RenderResult result = renderer.render(algorithm, {}, &colors);
-    REQUIRE(colors.size() == 2);
-    const Image& corner = colors[0];
-    std::uint64_t wrong = 0;
-    for (int y = 0; y + 1 < corner.height; ++y)
-        for (int x = 0; x + 1 < corner.width; ++x) {
-            std::uint32_t sum = 4 * colors[1].codes[corner.index(x, y, 1)] + 4;
-            for (const int j : {y, y + 1})
-                for (const int i : {x, x + 1}) sum += corner.codes[corner.index(i, j, 1)];
-            wrong += result.frame.color.codes[corner.index(x, y, 1)] != sum / 8 ? 1 : 0;
-        }
-    CHECK(wrong == 0);
+    strata::pipeline::DeviceProfile geforce3 = *find_profile("geforce3");
+    // In memory a pixel's lower corners are those of the next row, which a picture from the lower left shows above.
+    for (const auto origin : {strata::pipeline::Origin::upper_left, strata::pipeline::Origin::lower_left}) {
+        geforce3.origin = origin;
+        const int next = origin == strata::pipeline::Origin::lower_left ? -1 : 1;
+        SampledRenderer renderer{scene.list, scene.view, geforce3, sampled_options(), {2, Resolve::quincunx}};
+        std::vector<Image> colors;
+        const RenderResult result = renderer.render(algorithm, {}, &colors);
+        REQUIRE(colors.size() == 2);
+        const Image& corner = colors[0];
+        std::uint64_t wrong = 0;
+        for (int y = 1; y + 1 < corner.height; ++y)
+            for (int x = 0; x + 1 < corner.width; ++x) {
+                std::uint32_t sum = 4 * colors[1].codes[corner.index(x, y, 1)] + 4;
+                for (const int j : {y, y + next})
+                    for (const int i : {x, x + 1}) sum += corner.codes[corner.index(i, j, 1)];
+                wrong += result.frame.color.codes[corner.index(x, y, 1)] != sum / 8 ? 1 : 0;
+            }
+        CHECK(wrong == 0);
+    }
     const auto refusal_of = [&](const char* profile, int samples) {
         SampledRenderer other{
             scene.list, scene.view, *find_profile(profile), sampled_options(), {samples, Resolve::quincunx}};
