@@ -22,7 +22,7 @@ void main() {
 }
 )";
 
-// Nothing else is discarded: the front colour is kept under MAX because every fragment writes it (E13).
+// Nothing is discarded: the front colour is kept under MAX because every fragment writes it (E13).
 constexpr auto dual_text = R"(
 uniform sampler2D last_min_max;
 uniform sampler2D last_front;
@@ -31,13 +31,12 @@ layout(location = 1) out vec4 front;
 layout(location = 2) out vec4 back;
 void main() {{
     float z = gl_FragCoord.z;
-    if (hidden(z)) discard;
     vec2 range = texelFetch(last_min_max, TEXEL, 0).rg;
     float near = -range.x, far = range.y;
     min_max = vec2(-1.0);
     front = texelFetch(last_front, TEXEL, 0);
     back = vec4(0.0);
-    if (z < near || z > far) return;
+    if (hidden(z) || z < near || z > far) return;
     if (z > near && z < far) {{
         min_max = vec2(-z, z);
         {};
