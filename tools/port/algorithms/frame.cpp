@@ -118,8 +118,7 @@ Image read_picture(GLuint texture, const JobInput& input) {
 
 std::string stored_text(const Format& depth) {
     const std::string greatest = depth == d16 ? "65535.0" : "16777215.0";
-    const std::string stored =
-        depth == d32f ? "z" : "roundEven(z * " + greatest + ") * (1.0 / " + greatest + ")";
+    const std::string stored = depth == d32f ? "z" : "roundEven(z * " + greatest + ") * (1.0 / " + greatest + ")";
     return "float stored(float z) { z = clamp(z, 0.0, 1.0); return " + stored + "; }\n";
 }
 
