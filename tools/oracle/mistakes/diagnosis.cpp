@@ -77,9 +77,14 @@ void for_all(std::size_t count, const ShowProgress& progress, const std::functio
     });
 }
 
-// True if a finding explains half of the pixels exactly and all of them within one code.
+bool is_allowed(const Finding& f) {
+    return !f.mistakes.empty() && std::ranges::all_of(f.mistakes, &Mistake::is_allowed);
+}
+
+// True if a finding explains all pixels within one code, and not by accident.
 bool is_nearly_whole(const Finding& f, const Diagnosis& d) {
-    return f.agreeing != d.pixels && f.nearly == d.pixels && 2 * f.explained >= d.differing;
+    return f.agreeing != d.pixels && f.nearly == d.pixels &&
+           is_evidence(f.mistakes, f.explained, d.differing, d.differing_far);
 }
 
 // Of rendered pairs, with one sample per pixel; pairs with a mistake of the finished image cost nothing.
@@ -87,6 +92,12 @@ constexpr std::size_t most_pairs = 256;
 constexpr std::size_t most_pixels_of_pairs = std::size_t{1} << 21;
 
 }  // namespace
+
+bool is_evidence(std::span<const Mistake* const> mistakes, std::uint64_t explained, std::uint64_t differing,
+                 std::uint64_t differing_far) noexcept {
+    const bool is_mistake = mistakes.size() == 1 && !mistakes[0]->is_allowed;
+    return 2 * (is_mistake ? std::max(explained, differing_far) : explained) >= differing;
+}
 
 struct MistakeImages::Evidence {
     const Picture& candidate;
@@ -157,10 +168,6 @@ bool MistakeImages::shows(const Mistake& mistake) const {
 
 namespace {
 
-bool is_allowed(const Finding& f) {
-    return !f.mistakes.empty() && std::ranges::all_of(f.mistakes, &Mistake::is_allowed);
-}
-
 // If no finding explains all pixels exactly, moves the best one that nearly does to the front, options of a correct run
 // first. If the correct run is as near, one code is no evidence of a mistake.
 void take_nearly_whole(Diagnosis& d, std::uint64_t right_nearly) {
@@ -198,6 +205,7 @@ Diagnosis MistakeImages::diagnose(const Picture& candidate, const Tolerances& to
     Evidence evidence{candidate, tolerances, right_agrees, std::vector<Agreement>(suspects_.size())};
     result.findings.push_back(evidence.of({}, mistake_renderer_.right()));
     const std::uint64_t right_nearly = result.findings.front().nearly;
+    result.differing_far = result.pixels - right_nearly;
     for (std::size_t i = 0; i < suspects_.size(); ++i) {
         const Suspect& suspect = suspects_[i];
         ++(suspect.shows ? result.tried : suspect.picture ? result.hidden : result.impossible);

@@ -7,10 +7,11 @@
 //          single mistake explains every pixel, pairs are tried: first all that end with a mistake of the finished
 //          image, then those that contradict the candidate least where only one of the two changes the pixel. For a
 //          candidate of one colour everywhere and without passes no pairs are tried, because it is no evidence of two
-//          mistakes. If none explains every pixel exactly, one that explains half of them exactly and all within one
-//          code counts as nearly explaining them, unless the correct run does. If the candidate has passes, they decide
-//          between mistakes with the same image; a run whose passes differ from the candidate's no later than the
-//          correct run's do did not make it.
+//          mistakes. If none explains every pixel exactly, one that explains all within one code counts as nearly
+//          explaining them, unless the correct run does, if it explains half of those that differ exactly, or if it is
+//          a single mistake and half of them differ from the correct image by more than one code. If the candidate has
+//          passes, they decide between mistakes with the same image; a run whose passes differ from the candidate's no
+//          later than the correct run's do did not make it.
 // Tests    tests/tools/oracle/mistakes/diagnosis_test.cpp
 #pragma once
 #include <functional>
@@ -46,6 +47,7 @@ struct SuiteScene;  // tools/oracle/mistakes/suite.h
 struct Diagnosis {
     Verdict verdict{};
     std::uint64_t pixels = 0, differing = 0;      // differing: from the correct image, beyond the tolerances
+    std::uint64_t differing_far = 0;              // of `differing`, by more than one code beyond them
     std::optional<std::uint64_t> at_edges{};      // of `differing`, if pixels have several samples
     bool is_blank = false;                        // the candidate has one colour everywhere
     bool is_nearly = false;                       // the finding explains some pixels only within one code
@@ -62,6 +64,11 @@ struct Diagnosis {
 using ShowProgress = std::function<void(double share)>;
 
 // The images of all mistakes, rendered once for any number of candidates.
+// True if mistakes that explain all pixels within one code do so not by accident: of the pixels that differ from the
+// correct image half are explained exactly, or, by a single mistake, half differ by more than one code (differing_far).
+[[nodiscard]] bool is_evidence(std::span<const Mistake* const> mistakes, std::uint64_t explained,
+                               std::uint64_t differing, std::uint64_t differing_far) noexcept;
+
 class MistakeImages {
   public:
     // `mistake_renderer` and `options` must outlive this.

@@ -76,6 +76,7 @@ ScenesDiagnosis diagnose_scenes(const std::vector<SceneEvidence>& scenes, const 
         result.scenes.push_back(scene.mistake_images->diagnose(*scene.candidate, tolerances, {}, scene.passes));
         result.pixels += result.scenes.back().pixels;
         result.differing += result.scenes.back().differing;
+        result.differing_far += result.scenes.back().differing_far;
         if (progress) progress(0.8 * static_cast<double>(result.scenes.size()) / static_cast<double>(scenes.size()));
     }
     const std::vector<Mistakes> all = hypotheses(result.scenes);
@@ -85,8 +86,8 @@ ScenesDiagnosis diagnose_scenes(const std::vector<SceneEvidence>& scenes, const 
     gather_alike(result.findings);
     const ScenesFinding& best = result.findings.front();
     const bool fits_all = std::ranges::find(best.fits, false) == best.fits.end();
-    // Within one code is not sufficient for most pixels.
-    const bool is_explained = fits_all && 2 * best.explained >= result.differing;
+    const bool is_explained =
+        fits_all && is_evidence(best.mistakes, best.explained, result.differing, result.differing_far);
     result.verdict = !is_explained               ? Verdict::unknown_mistake
                      : best.mistakes.empty()     ? Verdict::right
                      : best.mistakes.size() == 1 ? Verdict::one_mistake

@@ -3,8 +3,8 @@
 // Rule     Every scene is diagnosed by itself. A finding that is reported for one of them, or explains all of its
 //          pixels there, is judged in all others: the one that fits the most scenes is reported; of several the one
 //          with fewer mistakes, then the one whose passes agree further. In a scene to which a mistake is not
-//          applicable, or whose image it does not change, the correct run is used. Half of the pixels of all scenes
-//          that differ from the correct image have to be explained exactly, and all within one code.
+//          applicable, or whose image it does not change, the correct run is used. All pixels of all scenes have to
+//          be explained within one code, and not by accident (is_evidence).
 // Tests    tests/tools/oracle/mistakes/scenes_diagnosis_test.cpp
 #pragma once
 #include <string>
@@ -32,8 +32,8 @@ struct ScenesFinding {
 };
 
 struct ScenesDiagnosis {
-    Verdict verdict{};  // unknown_mistake: no finding fits every scene
-    std::uint64_t pixels = 0, differing = 0;
+    Verdict verdict{};                                           // unknown_mistake: no finding fits every scene
+    std::uint64_t pixels = 0, differing = 0, differing_far = 0;  // as in Diagnosis
     std::vector<Diagnosis> scenes{};
     std::vector<ScenesFinding> findings{};  // the best first; never empty
 };

@@ -127,9 +127,9 @@ TEST_CASE("colours within the tolerance count as equal and the default tolerance
     const SceneFixture bench{"showroom.weighted_sum"};
     const MistakeImages mistake_images{bench.mistake_renderer};
     Picture rounded = bench.with("red_for_blue");
-    for (std::uint32_t& code : rounded.targets[0].codes) code = code < 255 ? code + 1 : code;
+    for (std::uint32_t& code : rounded.targets[0].codes) code = code < 254 ? code + 2 : code;
     CHECK(mistake_images.diagnose(rounded).verdict == Verdict::unknown_mistake);
-    const Diagnosis found = mistake_images.diagnose(rounded, {.color_codes = 1});
+    const Diagnosis found = mistake_images.diagnose(rounded, {.color_codes = 2});
     CHECK(found.verdict == Verdict::one_mistake);
     CHECK(names_of(found.findings.front())[0] == "red_for_blue");
 }

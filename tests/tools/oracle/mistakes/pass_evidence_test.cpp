@@ -173,7 +173,7 @@ TEST_CASE("a few pixels of the first wrong pass do not contradict the mistake th
     }
 }
 
-TEST_CASE("a mistake that explains half of the pixels exactly and all within one code is identified as nearly exact") {
+TEST_CASE("a mistake that explains all pixels within one code is identified if that is no accident") {
     const SceneFixture bench{"showroom.weighted_sum"};
     const MistakeImages mistake_images{bench.mistake_renderer};
     Picture rounded = bench.with("red_for_blue");
@@ -185,6 +185,11 @@ TEST_CASE("a mistake that explains half of the pixels exactly and all within one
     CHECK(first_of(found).mistakes[0]->name == "red_for_blue");
     CHECK(first_of(found).nearly == found.pixels);
     CHECK(first_of(found).agreeing < found.pixels);
+    // No pixel equals the mistake's, but most differ from the correct ones by more than a code.
+    Picture all_off = bench.with("red_for_blue");
+    for (auto& code : all_off.targets[0].codes) code = code < 255 ? code + 1 : 254;
+    CHECK(mistake_images.diagnose(all_off).is_nearly);
+    CHECK(first_of(mistake_images.diagnose(all_off)).mistakes[0]->name == "red_for_blue");
     // A picture that is one code off but otherwise correct has no mistake.
     Picture off = bench.mistake_renderer.right();
     for (std::size_t i = 0; i < off.targets[0].codes.size(); i += 40)
@@ -192,4 +197,16 @@ TEST_CASE("a mistake that explains half of the pixels exactly and all within one
     const Diagnosis none = mistake_images.diagnose(off);
     CHECK(none.verdict == Verdict::unknown_mistake);
     CHECK_FALSE(none.is_nearly);
+}
+
+TEST_CASE("explaining all pixels within one code is evidence only if half are exact or a mistake moves half by more") {
+    const Mistake mistake{.name = "mistake"}, option{.name = "option", .is_allowed = true};
+    const Mistake *const one[] = {&mistake}, *const both[] = {&mistake, &mistake}, *const allowed[] = {&option};
+    CHECK(is_evidence(one, 5, 10, 0));
+    CHECK_FALSE(is_evidence(one, 4, 10, 4));
+    CHECK(is_evidence(one, 0, 10, 5));
+    CHECK_FALSE(is_evidence(both, 4, 10, 10));
+    CHECK(is_evidence(both, 5, 10, 10));
+    CHECK_FALSE(is_evidence(allowed, 4, 10, 10));
+    CHECK_FALSE(is_evidence({}, 4, 10, 10));
 }
