@@ -265,7 +265,6 @@ Command add_compare(CLI::App& root) {
     add_machine_options(*app, options->run);
     add_order_options(*app, options->run.render);
     add_view_options(*app, options->run);
-    options->run.resolves = true;
     add_choice(*app, options->run.samples, "--samples", sample_counts,
                "samples per pixel of the port; the verdict is about the mean of what they composite (default 1)");
     add_shading_options(*app, options->run);

@@ -60,7 +60,6 @@ int explain(ExplainOptions& options) {
         if (!options.pixel) throw CLI::ValidationError("--candidate", "expected --pixel X,Y beside it");
         return explain_candidate({options.run, options.candidate, x, y, options.json});
     }
-    options.run.resolves = true;
     complete(options.run);
     check_outputs({{"--svg", options.svg, {".svg"}}});
     // Lambdas of clang 14 capture no structured bindings.

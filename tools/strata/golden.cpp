@@ -112,7 +112,6 @@ int golden(GoldenOptions& options) {
     if (options.run.output.empty()) throw CLI::ValidationError("-o is missing: the folder for the pack");
     scenes::check_new_folder(options.run.output);
     if (options.suite) return write_suite(options);
-    options.run.resolves = true;
     complete(options.run);
     const oracle::Golden made = golden_of(options.run);
     if (made.algorithms.empty()) return 2;

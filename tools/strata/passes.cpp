@@ -113,7 +113,6 @@ void show(const RunOptions& options, const Session& session, const peeling::Algo
 // An algorithm that the profile refuses writes no files; the status is 2 if all are refused.
 int passes(PassesOptions& command) {
     RunOptions& options = command.run;
-    options.resolves = true;
     complete(options);
     check_outputs({{"--report", command.report, {".html"}}});
     if (options.output.empty()) throw CLI::ValidationError("-o is missing: the folder for the files");

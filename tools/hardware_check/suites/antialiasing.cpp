@@ -95,7 +95,7 @@ Drawing draw_antialiasing(std::string_view name, const pipeline::DeviceProfile& 
     if (name == "FBSurfaceWithCenter1") return {Picture{.image = drawn(profile, 0)}, {}};
     if (name == "FBSurfaceWithCenterCorner2") return {drawn_with_two_samples(profile), {}};
     if (name == "GPUAAWriteAfterCPUWrite")
-        return {std::nullopt, "the samples of a surface of four, whose places no capture shows"};
+        return {std::nullopt, "the samples of a surface of four, whose positions no capture shows"};
     return unknown_name;
 }
 

@@ -139,7 +139,6 @@ Command add_multisampling(CLI::App& root) {
     options->run.default_algorithm = "front_to_back,dual,dual_independent,depth_units";
     options->run.profile = "ideal";
     options->run.samples = 4;
-    options->run.resolves = true;
     options->run.render.width = 64, options->run.render.height = 48;
     options->run.render.alpha = 0.5f;
     app->add_option("SCENE", options->scenes,

@@ -335,7 +335,6 @@ Command add_diagnose(CLI::App& root) {
     const auto options = std::make_shared<DiagnoseOptions>();
     options->run.takes_one_algorithm = true;
     add_picture_options(*app, options->run);
-    options->run.resolves = true;
     app->get_option("SCENE")->required(false);  // not needed with --list
     app->add_option(
            "CANDIDATE", options->candidate,

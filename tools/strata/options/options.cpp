@@ -138,10 +138,8 @@ void check_samples(const RunOptions& options) {
         throw CLI::ValidationError("--shading pixel goes with --samples 2, 4 or 8");
     if (options.interpolate && !options.shades_pixels)
         throw CLI::ValidationError("--interpolate goes with --shading pixel");
-    if (options.resolve != pipeline::Resolve::box && (options.sample || !options.resolves))
+    if (options.resolve != pipeline::Resolve::box && options.sample)
         throw CLI::ValidationError("--resolve goes with all samples of a picture");
-    if (options.samples > 1 && !options.sample && !options.resolves)
-        throw CLI::ValidationError("--samples needs --sample here: a number from 0 to " + last);
 }
 
 // A pack of one sample keeps its own.

@@ -45,7 +45,6 @@ struct RunOptions {
     pipeline::LoadedSample load_sample = pipeline::LoadedSample::own;       // --load-sample: of geometry passes
     pipeline::LoadedSample composite_sample = pipeline::LoadedSample::own;  // --composite-sample: of full-screen ones
     pipeline::Resolve resolve = pipeline::Resolve::box;
-    bool resolves = false;  // the command accepts frames of all samples
     // --execution tiled: replay without a record of fragments, whatever --fragment-memory is.
     bool keeps_no_fragments = false;
     std::optional<std::uint64_t> max_memory{};  // --max-memory in bytes; empty: the free memory of the machine

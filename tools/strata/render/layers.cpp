@@ -113,7 +113,6 @@ int layers(LayersOptions& options) {
     if (options.run.output.empty() && options.deep.empty()) {
         throw CLI::ValidationError("-o is missing: the file for the layers; or --deep FILE, for the fragments");
     }
-    options.run.resolves = true;
     options.run.render.keep_layers = true;
     return run_algorithms(options.run, [&](const CompletedRun& finished) { write_layers(options, finished); });
 }

@@ -93,7 +93,6 @@ int render(RenderCommand& command) {
     check_outputs({{"-o", options.output, command.map ? map_endings : pictures, StandardOutput::possibly},
                    {"--report", command.report, {".html"}}});
     if (command.map && options.output.empty()) throw CLI::ValidationError("--map needs -o FILE.png");
-    options.resolves = true;
     if (!command.mistakes.empty()) return render_mistaken(options, command.mistakes);
     const int status = run_algorithms(options, [&](const CompletedRun& finished) {
         command.map ? write_map(options, *command.map, finished) : write_picture(options, finished);

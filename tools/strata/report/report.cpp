@@ -55,7 +55,6 @@ std::filesystem::path page_of(const std::string& output) {
 int report(ReportOptions& command, bool has_size) {
     RunOptions& options = command.run;
     if (!has_size && !command.region) options.render.width = usual_width, options.render.height = usual_height;
-    options.resolves = true;
     complete(options);
     options.render.counters = true;  // the page's table shows them
     if (options.output.empty()) throw CLI::ValidationError("-o is missing: the page, FILE.html, or a folder for it");
