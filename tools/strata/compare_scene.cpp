@@ -14,12 +14,8 @@
 #include "tools/oracle/mistakes/suite.h"
 #include "tools/oracle/verdict/distinguish_rules.h"
 #include "tools/oracle/verdict/edits.h"
-#include "tools/oracle/verdict/form.h"
-#include "tools/oracle/verdict/report.h"
-#include "tools/oracle/verdict/sample.h"
-#include "tools/oracle/verdict/verdict.h"
+#include "tools/oracle/verdict/picture_verdict.h"
 #include "tools/strata/compare_pages.h"
-#include "tools/strata/other_profile.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/samples_verdict.h"
 #include "tools/strata/table.h"
@@ -105,16 +101,6 @@ std::string counted(std::uint64_t pixels, const std::string& what) {
     return std::to_string(pixels) + (pixels == 1 ? " pixel: " : " pixels: ") + what;
 }
 
-// Returns the JSON verdict with the form that colours were read in and the name of the profile, under whose rules it
-// holds, as its last keys.
-std::string with_reading(const std::string& verdict, const oracle::verdict::Formed& formed,
-                         const pipeline::DeviceProfile& profile) {
-    nlohmann::ordered_json document = nlohmann::ordered_json::parse(verdict);
-    if (formed.is_chosen) document["colors"] = formed.use.is_divided ? "straight" : "premultiplied";
-    document["profile"] = profile.name;
-    return document.dump(2) + '\n';
-}
-
 // A page with the verdict's text and the candidate.
 PlainPage verdict_page(const std::string& scene, const oracle::Picture& candidate, const std::string& verdict) {
     PlainPage page{"Verdict", std::filesystem::path(candidate.file).filename().string() + " of " +
@@ -130,9 +116,11 @@ PlainPage verdict_page(const std::string& scene, const oracle::Picture& candidat
     return page;
 }
 
-PlainPage page_of(const std::string& scene, const oracle::Picture& candidate, const oracle::verdict::Verdict& found,
-                  const EditMap& map, const pipeline::DrawList& list, const std::string& reading) {
-    PlainPage page = verdict_page(scene, candidate, to_text(found, list) + reading);
+PlainPage page_of(const std::string& scene, const oracle::Picture& candidate,
+                  const oracle::verdict::PictureVerdict& verdict, const pipeline::DrawList& list) {
+    const oracle::verdict::Verdict& found = verdict.found;
+    const EditMap map = edit_map(*verdict.fragments, verdict.formed.colors(), found);
+    PlainPage page = verdict_page(scene, candidate, to_text(verdict, list));
     page.picture(drawn(map), found.is_right ? "Wrong pixels: none, so all of it is black"
                                             : "What each wrong pixel composited: black is right");
     if (found.is_right) return page;
@@ -183,32 +171,18 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
     const oracle::Target& colors = colors_of(candidate);
     const Session session = open_at_size(question, colors);
     if (question.run.samples > 1) return compare_resolved(question, session, candidate);
-    const peeling::RenderOptions& options = question.run.render;
-    oracle::verdict::SceneFragments fragments{{session.scene.list, session.view, session.profile, options},
-                                              options.fragment_memory};
-    oracle::verdict::Formed formed = oracle::verdict::formed(fragments, colors, question.is_form_stated);
-    formed.use.has_alpha = question.has_alpha;
-    const oracle::verdict::Colors seen = formed.colors();
-    oracle::verdict::Verdict found = judge(fragments, seen);
     const pipeline::DrawList& list = session.scene.list;
-    std::optional<OtherProfile> other;
-    const bool has_wrong_alpha = found.alpha.state == oracle::verdict::AlphaState::wrong;
-    if (!found.is_right && !found.is_undecided() && !has_wrong_alpha)
-        other = right_by_other_profile({list, session.view, session.profile, options}, options.fragment_memory, seen,
-                                       found.right.wrong_pixels);
-    std::string reading = formed.description();
-    if (other) {
-        reading += other->description(session.profile.name, found.right.wrong_pixels.size());
-        found = other->verdict;
-    }
-    found.distinguishing_command = distinguishing_command(found);
-    if (!question.report.empty())
-        write_page(question.report,
-                   page_of(question.run.scene, candidate, found,
-                           edit_map(other ? *other->fragments : fragments, seen, found), list, reading));
-    print(question.json ? with_reading(to_json(found, list), formed, other ? *other->profile : session.profile)
-                        : with_painted_verdicts(to_text(found, list) + reading));
-    return found.is_right ? 0 : 1;
+    oracle::verdict::PictureVerdict verdict = oracle::verdict::judge_picture(
+        {list, session.view, session.profile, question.run.render},
+        {.colors = colors,
+         .is_form_stated = question.is_form_stated,
+         .has_alpha = question.has_alpha,
+         .is_frame_linear = question.run.scene_options.color_space == pipeline::ColorSpace::linear,
+         .algorithm = question.algorithm.empty() ? nullptr : question.run.algorithms[0]});
+    verdict.found.distinguishing_command = distinguishing_command(verdict.found);
+    if (!question.report.empty()) write_page(question.report, page_of(question.run.scene, candidate, verdict, list));
+    print(question.json ? to_json(verdict, list, session.profile.name) : with_painted_verdicts(to_text(verdict, list)));
+    return verdict.is_right() ? 0 : 1;
 }
 
 }  // namespace strata::tools

@@ -42,6 +42,9 @@ void measure(const Stack& stack, const ReachableColor& reach, const std::array<d
         found.observed = std::max(found.observed, std::fabs(as_code(value[c]) - wanted));
         found.possible = std::max(
             {found.possible, std::fabs(as_code(reach[c].low) - wanted), std::fabs(as_code(reach[c].high) - wanted)});
+        // An interval that ends at 0 or 1 may be cut there.
+        if (reach[c].low > 0 && reach[c].high < 1)
+            found.needed = std::max(found.needed, std::fabs(value[c] - (reach[c].low + reach[c].high) / 2) * levels);
     }
 }
 
@@ -81,6 +84,7 @@ class Checker {
         CheckedAccount& found = part.checked;
         ++found.pixels;
         found.covered += list.visible.empty() ? 0 : 1;
+        found.edges += list.edge != nullptr ? 1 : 0;
         const MatchingTies way = matching_ties(compositor_, account_.rules, list, value, maker);
         const TieMask mask = way.mask;
         if (mask == 0) {
@@ -122,6 +126,8 @@ void merge(const CheckedAccount& part, CheckedAccount& all) {
     all.covered += part.covered;
     all.tied += part.tied;
     all.at_edges += part.at_edges;
+    all.edges += part.edges;
+    all.needed = std::max(all.needed, part.needed);
     all.changed += part.changed;
     all.undecided += part.undecided;
     all.bits += part.bits;

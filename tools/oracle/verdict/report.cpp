@@ -30,7 +30,13 @@ std::string ties_of(const CheckedAccount& c) {
                        c.has_one_tie_rule ? describe(c.ties) : "composited by no one rule");
 }
 
+}  // namespace
+
 std::string first_line(const Verdict& v, const pipeline::DrawList& list) {
+    if (v.state() == State::right_but_excused)
+        return fmt::format(
+            "right: structure exact at {} of {}, {} excused at edges that another rasterizer may cover so; {}",
+            v.right.pixels - v.right.excused(), pixels(v.right.pixels), v.right.excused(), rounding_of(v.right));
     if (v.is_right)
         return fmt::format("right: structure exact at all {}; {}", pixels(v.right.pixels), rounding_of(v.right));
     if (v.is_undecided())
@@ -45,6 +51,8 @@ std::string first_line(const Verdict& v, const pipeline::DrawList& list) {
     if (v.explanations.size() == 1) return "wrong: " + description(v.explanations[0].account.rules, v.facts, list);
     return fmt::format("wrong: one of {} mistakes, which look the same here", v.explanations.size());
 }
+
+namespace {
 
 // Pixels with wrong colours, or with wrong alpha if all colours are right.
 const std::vector<std::uint32_t>& wrong_pixels(const Verdict& v) {
@@ -80,8 +88,9 @@ std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
     if (!v.is_right && !v.explanations.empty()) add(rounding_of(account));
     if (account.tied > 0) add(ties_of(account));
     if (account.at_edges > 0)
-        add(fmt::format("{} at edges, slivers or depths that nearly meet: as another rasterizer snaps or breaks ties",
-                        pixels(account.at_edges)));
+        add(fmt::format(
+            "{} of {} at edges, slivers or depths that nearly meet: as another rasterizer snaps or breaks ties",
+            account.at_edges, pixels(account.edges)));
     if (v.shown_at_far_plane > 0)
         add(fmt::format("at {} with fragments at the far plane's depth: all are composited, as without a depth test",
                         pixels(v.shown_at_far_plane)));

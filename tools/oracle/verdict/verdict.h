@@ -17,6 +17,10 @@
 
 namespace strata::oracle::verdict {
 
+// right_but_excused: right, apart from pixels that the verdict counts and names: edges that only another rasterizer
+// covers so, fragments of one depth of which one is lost.
+enum class State : std::uint8_t { right, right_but_excused, undecided, wrong };
+
 struct Verdict {
     bool is_right = false;
     int width = 0;                         // of the picture, in pixels
@@ -37,6 +41,10 @@ struct Verdict {
     // better were tried.
     [[nodiscard]] bool is_undecided() const noexcept {
         return !is_right && explanations.empty() && right.is_whole() && alpha.state != AlphaState::wrong;
+    }
+    [[nodiscard]] State state() const noexcept {
+        if (!is_right) return is_undecided() ? State::undecided : State::wrong;
+        return right.excused() > 0 ? State::right_but_excused : State::right;
     }
 };
 

@@ -1,4 +1,4 @@
-#include "tools/strata/other_profile.h"
+#include "tools/oracle/verdict/other_profile.h"
 
 #include <fmt/format.h>
 
@@ -11,22 +11,18 @@
 #include "tools/oracle/verdict/match.h"
 #include "tools/oracle/verdict/sample.h"
 
-namespace strata::tools {
+namespace strata::oracle::verdict {
 
 namespace {
 
-oracle::verdict::Families definite(const oracle::verdict::Colors& candidate) {
-    using namespace oracle::verdict;
+Families definite(const Colors& candidate) {
     return families(storage_of(candidate.code()), {0, 0x1p-20}, Looseness::definite, candidate.use().is_divided);
 }
 
 // The explanation of the candidate as a right picture, with fragments that are equal or differ by a few units in the
 // last place. It is returned only if it leaves at most two codes of 255 or few values possible, or if the candidate
 // contains at most one code.
-std::optional<oracle::verdict::CheckedAccount> narrow_account(const oracle::verdict::SceneFragments& scene,
-                                                              const oracle::verdict::Colors& candidate,
-                                                              oracle::verdict::Sample& sample) {
-    using namespace oracle::verdict;
+std::optional<CheckedAccount> narrow_account(const SceneFragments& scene, const Colors& candidate, Sample& sample) {
     constexpr double most_open = 2, most_bits = 4;  // codes; bits per pixel
     auto found = account_for(definite(candidate), {}, scene, candidate, sample);
     if (!found || found->possible <= most_open || found->observed <= 1) return found;
@@ -55,9 +51,7 @@ rasterizer::Rect most_wrong(const std::vector<std::uint32_t>& wrong_pixels, int 
 
 // True if a definite hypothesis explains the rectangle. A hypothesis that fails there fails for the whole picture, so
 // the rest need not be rendered.
-bool may_be_right(const oracle::RunInput& input, std::uint64_t bytes, const oracle::verdict::Colors& candidate,
-                  const rasterizer::Rect& rect) {
-    using namespace oracle::verdict;
+bool may_be_right(const RunInput& input, std::uint64_t bytes, const Colors& candidate, const rasterizer::Rect& rect) {
     peeling::RenderOptions options = input.options;
     options.raster.scissor = options.raster.scissor ? rasterizer::intersection(*options.raster.scissor, rect) : rect;
     const SceneFragments part{{input.list, input.view, input.profile, options}, bytes};
@@ -82,11 +76,9 @@ std::string OtherProfile::description(const std::string& given, std::size_t wron
                        given, wrong_pixels, wrong_pixels == 1 ? "" : "s");
 }
 
-std::optional<OtherProfile> right_by_other_profile(const oracle::RunInput& input, std::uint64_t bytes,
-                                                   const oracle::verdict::Colors& candidate,
+std::optional<OtherProfile> right_by_other_profile(const RunInput& input, std::uint64_t bytes, const Colors& candidate,
                                                    const std::vector<std::uint32_t>& wrong_pixels,
                                                    std::span<const pipeline::DeviceProfile> more) {
-    using namespace oracle::verdict;
     constexpr std::size_t most_sampled = 2048;
     std::vector<pipeline::DeviceProfile> all{more.begin(), more.end()};
     const auto& built_in = pipeline::builtin_profiles();
@@ -96,7 +88,7 @@ std::optional<OtherProfile> right_by_other_profile(const oracle::RunInput& input
         OtherProfile other{
             .profile = std::make_unique<pipeline::DeviceProfile>(with_origin(profile, input.profile.origin)),
             .fragments = nullptr};
-        const oracle::RunInput by_other{input.list, input.view, *other.profile, input.options};
+        const RunInput by_other{input.list, input.view, *other.profile, input.options};
         try {
             if (!wrong_pixels.empty() &&
                 !may_be_right(by_other, bytes, candidate, most_wrong(wrong_pixels, candidate.width())))
@@ -124,4 +116,4 @@ std::optional<OtherProfile> right_by_other_profile(const oracle::RunInput& input
     return std::nullopt;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::oracle::verdict

@@ -1,0 +1,53 @@
+// tools/oracle/verdict/picture_verdict.h - the verdict on the picture of a port: the one answer that compare, diagnose,
+// the library and Python give.
+//
+// Rule     In this order: the right structure and the search for mistakes (verdict.h), then the rules of the other
+//          profiles (other_profile.h). Of a file with straight colours the form with fewer wrong pixels is used
+//          (form.h).
+// Tests    tests/tools/compare_scene_test.cpp
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+
+#include "tools/oracle/run_input.h"
+#include "tools/oracle/verdict/form.h"
+#include "tools/oracle/verdict/fragments.h"
+#include "tools/oracle/verdict/verdict.h"
+
+namespace strata::peeling {
+struct Algorithm;
+}
+
+namespace strata::oracle::verdict {
+
+// One sample per pixel; resolved.h judges pictures with several.
+struct PictureQuestion {
+    const Target& colors;
+    bool is_form_stated = false;                      // an option says whether colours are straight or premultiplied
+    bool has_alpha = true;                            // false: alpha is not compared
+    bool is_frame_linear = false;                     // --color-space linear
+    const peeling::Algorithm* algorithm = nullptr;    // that the port runs; null: not known
+    std::span<const pipeline::DeviceProfile> more{};  // profiles that are tried before the built-in ones
+};
+
+struct PictureVerdict {
+    Verdict found{};
+    Formed formed{};
+    std::string reading{};  // lines on how the picture was read, and by which profile; each indented and ended
+    std::unique_ptr<pipeline::DeviceProfile> other_profile{};  // null: right or wrong by the given one
+    std::unique_ptr<SceneFragments> fragments{};               // of the profile that `found` is about
+
+    [[nodiscard]] State state() const noexcept { return found.state(); }
+    [[nodiscard]] bool is_right() const noexcept { return found.is_right; }
+};
+
+// Objects that `input` and `question` refer to must outlive the result. Throws Refused and InputError like a renderer.
+[[nodiscard]] PictureVerdict judge_picture(const RunInput& input, const PictureQuestion& question);
+
+[[nodiscard]] std::string to_text(const PictureVerdict& verdict, const pipeline::DrawList& list);
+// With the form that colours were read in and the name of the profile as its last keys.
+[[nodiscard]] std::string to_json(const PictureVerdict& verdict, const pipeline::DrawList& list,
+                                  const std::string& given_profile);
+
+}  // namespace strata::oracle::verdict
