@@ -52,19 +52,31 @@ bool holds_non_finite(Word word, ChannelType type) noexcept {
     return (word & half) == half || (word >> 16 & half) == half;
 }
 
+// The bits of the greatest half at which sums stop under a rounding without an infinity; 0: they become infinite.
+Word stopping_half(HalfRounding rounding) noexcept {
+    if (rounding == HalfRounding::nearest_even) return 0;
+    return rounding == HalfRounding::toward_zero ? half_bits::largest : half_bits::largest_without_infinity;
+}
+
+// True if one of the two halves in the word is the greatest, of either sign.
+bool holds_half(Word word, Word greatest) noexcept {
+    constexpr Word magnitude = 0x7fffu;
+    return (word & magnitude) == greatest || (word >> 16 & magnitude) == greatest;
+}
+
 struct FoundPixels {
     std::uint64_t pixels = 0;
     std::uint32_t first = 0;
 };
 
-FoundPixels non_finite_pixels(const TargetStorage& storage, ChannelType type) {
+FoundPixels pixels_where(const TargetStorage& storage, const auto& holds) {
     FoundPixels found;
     for (std::uint32_t pixel = 0; pixel < storage.pixels(); ++pixel) {
         bool is_found = false;
         for (int sample = 0; sample < storage.samples(); ++sample) {
             const Texels texels = storage.texels(sample);
             for (std::size_t word = 0; word < texels.words(); ++word)
-                is_found |= holds_non_finite(texels.plane(word).words[pixel], type);
+                is_found |= holds(texels.plane(word).words[pixel]);
         }
         if (is_found && found.pixels++ == 0) found.first = pixel;
     }
@@ -261,6 +273,8 @@ void Targets::require_equal(const std::vector<TargetStorage>& others) const {
 }
 
 void Targets::report_non_finite(Target published) const {
+    const HalfRounding rounding = shared_.frame.profile->half_rounding;
+    const Word greatest = stopping_half(rounding);
     for (int id = 0; id < count(); ++id) {
         const bool is_opaque = id == opaque_depth_.id || id == opaque_color_.id;
         if (shared_.frame.checks_targets ? is_opaque : id != published.id) continue;
@@ -268,13 +282,20 @@ void Targets::report_non_finite(Target published) const {
         const ChannelType type = info(storage.format()).type;
         if (type != ChannelType::half && type != ChannelType::single) continue;
         if (std::ranges::find(cleared_non_finite_, id) != cleared_non_finite_.end()) continue;
-        const FoundPixels found = non_finite_pixels(storage, type);
         const auto named = std::ranges::find(names_, id, &std::pair<int, std::string>::first);
         const std::string name = named != names_.end() ? named->second
                                  : id == published.id  ? "result"
                                                        : std::to_string(id);
-        shared_.report(Fault::non_finite_target, found.pixels, found.first,
-                       "target " + name + " holds infinity or NaN");
+        const auto report = [&](Fault fault, const std::string& what, const auto& holds) {
+            const FoundPixels found = pixels_where(storage, holds);
+            shared_.report(fault, found.pixels, found.first, "target " + name + what);
+        };
+        if (type == ChannelType::single || rounding != HalfRounding::no_infinity)
+            report(Fault::non_finite_target, " holds infinity or NaN",
+                   [&](Word word) { return holds_non_finite(word, type); });
+        if (type == ChannelType::half && greatest != 0)
+            report(Fault::half_saturated, " holds the greatest half, at which sums stop",
+                   [&](Word word) { return holds_half(word, greatest); });
     }
 }
 

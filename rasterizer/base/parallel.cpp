@@ -83,7 +83,13 @@ void loop(std::size_t count, int threads, const std::function<void(std::size_t)>
     std::optional<tbb::global_control> allowed;
     if (threads > tbb::info::default_concurrency())
         allowed.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-    arena_of(threads).execute([&] { tbb::parallel_for(std::size_t{0}, count, body); });
+    LoopWork work{count, body};
+    const std::size_t tasks = std::min(count, static_cast<std::size_t>(threads));
+    arena_of(threads).execute([&] {
+        tbb::parallel_for(
+            std::size_t{0}, tasks, [&](std::size_t) { work.run(); }, tbb::simple_partitioner{});
+    });
+    work.rethrow();
 }
 
 }  // namespace

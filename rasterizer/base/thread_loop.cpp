@@ -3,9 +3,6 @@
 
 #include <pthread.h>
 
-#include <atomic>
-#include <exception>
-#include <mutex>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -41,28 +38,30 @@ int available_threads(int wanted, std::size_t stack_bytes) noexcept try {
     return 0;
 }
 
+void LoopWork::run() noexcept try {
+    for (std::size_t i = next_++; i < count_; i = next_++) body_(i);
+} catch (...) {
+    const std::lock_guard held{mutex_};
+    if (!failure_) failure_ = std::current_exception();
+    next_ = count_;
+}
+
+void LoopWork::rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+}
+
 void thread_loop(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
-    std::atomic<std::size_t> next = 0;
-    std::mutex mutex;
-    std::exception_ptr failure;
-    const auto work = [&] {
-        try {
-            for (std::size_t i = next++; i < count; i = next++) body(i);
-        } catch (...) {
-            const std::lock_guard held{mutex};
-            if (!failure) failure = std::current_exception();
-            next = count;
-        }
-    };
+    LoopWork work{count, body};
     std::vector<std::thread> others;
     try {
-        for (int i = 1; i < threads && static_cast<std::size_t>(i) < count; ++i) others.emplace_back(work);
+        for (int i = 1; i < threads && static_cast<std::size_t>(i) < count; ++i)
+            others.emplace_back([&] { work.run(); });
     } catch (const std::exception&) {  // the system refuses a thread or its memory; if the exception escaped, the
                                        // running threads would end the program
     }
-    work();
+    work.run();
     for (std::thread& other : others) other.join();
-    if (failure) std::rethrow_exception(failure);
+    work.rethrow();
 }
 
 }  // namespace strata

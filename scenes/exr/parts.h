@@ -74,7 +74,8 @@ int start_threads();
 // Returns "", or OpenEXR's message. A failure of the sink is reported by the sink's owner.
 [[nodiscard]] std::string write_parts(const ByteSink& sink, std::span<const PartSource> parts);
 
-// Calls `take` with part after part, the channels sorted by name. InputError if `path` is no EXR file, or has a part
+// Calls `take` with part after part, the channels sorted by name. A part has the size of the display window: pixels
+// that its data window lacks are 0 (deep: have no sample). InputError if `path` is no EXR file, or has a part
 // that is larger than 16384 x 16384 or has channels of fewer samples than pixels; all parts are checked before the
 // first is read.
 void read_parts(const std::string& path, const std::function<void(StoredPart&&)>& take);

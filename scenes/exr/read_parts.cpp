@@ -1,5 +1,5 @@
 // scenes/exr/read_parts.cpp - reads the parts of an EXR file, in scan lines or tiles, flat or deep, as bytes in their
-// stored types.
+// stored types, at their place in the display window.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfDeepScanLineInputPart.h>
 #include <OpenEXR/ImfDeepTiledInputPart.h>
@@ -10,6 +10,7 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/openexr.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -25,12 +26,16 @@ namespace {
 // The largest side of the project's own targets; a larger one means damage or another kind of file.
 constexpr int max_size = 16384;
 
-void check(const std::string& path, const Imf::Header& header) {
-    const Imath::Box2i& window = header.dataWindow();
+void check(const std::string& path, const char* place, const Imath::Box2i& window) {
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
     const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
     if (width < 1 || height < 1 || width > max_size || height > max_size)
-        throw InputError(path, "size", "at most 16384x16384", std::to_string(width) + "x" + std::to_string(height));
+        throw InputError(path, place, "at most 16384x16384", std::to_string(width) + "x" + std::to_string(height));
+}
+
+void check(const std::string& path, const Imf::Header& header) {
+    check(path, "size", header.dataWindow());
+    check(path, "size of the display window", header.displayWindow());
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
         if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1)
             throw InputError(path, std::string{"channel "} + channel.name(), "a sample for every pixel", "fewer");
@@ -94,6 +99,40 @@ void read_deep(Imf::MultiPartInputFile& file, int number, StoredPart& part) {
     read_samples(input, window);
 }
 
+// Moves a part's pixels from its data window to their place in the display window, which is the picture. Pixels outside
+// of the data window are 0, those outside of the display window are not seen.
+void place(StoredPart& part, const Imath::Box2i& data, const Imath::Box2i& display) {
+    if (data == display) return;
+    StoredPart placed{.header = part.header, .is_whole = true};
+    placed.header.width = display.max.x - display.min.x + 1;
+    placed.header.height = display.max.y - display.min.y + 1;
+    const auto pixels =
+        static_cast<std::size_t>(placed.header.width) * static_cast<std::size_t>(placed.header.height);
+    const std::size_t size = pixel_bytes(part.header);
+    if (part.header.is_deep)
+        placed.samples.assign(pixels, 0);
+    else
+        placed.bytes.assign(pixels * size, std::byte{0});
+    std::size_t pixel = 0, sample = 0;
+    for (int y = data.min.y; y <= data.max.y; ++y)
+        for (int x = data.min.x; x <= data.max.x; ++x, ++pixel) {
+            const std::size_t samples = part.header.is_deep ? part.samples[pixel] : 1;
+            const std::byte* const from = part.bytes.data() + sample * size;
+            sample += samples;
+            if (!display.intersects(Imath::V2i{x, y})) continue;
+            const auto to = static_cast<std::size_t>(y - display.min.y) *
+                                static_cast<std::size_t>(placed.header.width) +
+                            static_cast<std::size_t>(x - display.min.x);
+            if (part.header.is_deep) {
+                placed.samples[to] = part.samples[pixel];
+                placed.bytes.insert(placed.bytes.end(), from, from + samples * size);
+            } else {
+                std::copy_n(from, size, placed.bytes.begin() + static_cast<std::ptrdiff_t>(to * size));
+            }
+        }
+    part = std::move(placed);
+}
+
 StoredPart read_part(Imf::MultiPartInputFile& file, int number) {
     StoredPart part{.header = header_of(file.header(number))};
     try {
@@ -104,6 +143,7 @@ StoredPart read_part(Imf::MultiPartInputFile& file, int number) {
         else
             read_deep<Imf::DeepScanLineInputPart>(file, number, part);
         part.is_whole = true;
+        place(part, file.header(number).dataWindow(), file.header(number).displayWindow());
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception&) {  // OpenEXR's exceptions are derived from it

@@ -161,11 +161,37 @@ Scene loaded(const std::string& spec, const SceneOptions& options) {
         quoted_with_suggestion(scene_name(spec), names()));
 }
 
+// True if the matrix maps every triangle to a line or a point: two axes at least are scaled to 0 or fall on one line.
+bool has_no_area(const pipeline::Matrix& m) noexcept {
+    for (glm::length_t a = 0; a < 3; ++a)
+        for (glm::length_t i = 0; i < 3; ++i) {
+            const glm::length_t b = (a + 1) % 3, j = (i + 1) % 3;
+            if (m[a][i] * m[b][j] != m[a][j] * m[b][i]) return false;
+        }
+    return true;
+}
+
+void warn_of_scale_0(const std::string& spec, Scene& scene) {
+    std::size_t count = 0, first = 0;
+    const auto& instances = scene.list.instances;
+    for (std::size_t i = instances.size(); i-- > 0;)
+        if (has_no_area(instances[i].model)) {
+            ++count;
+            first = i;
+        }
+    if (count == 0) return;
+    const std::string& mesh = scene.list.meshes[instances[first].mesh].name;
+    scene.warnings.push_back(spec + ": " + std::to_string(count) + " of " + std::to_string(instances.size()) +
+                             " instances have a scale of 0 and are not drawn; the first is instance " +
+                             std::to_string(first) + (mesh.empty() ? "" : ", mesh '" + mesh + "'"));
+}
+
 }  // namespace
 
 Scene load_scene(const std::string& spec, const SceneOptions& options) {
     Scene scene = loaded(spec, options);
     blend_materials(scene.list, options.alpha, spec);
+    warn_of_scale_0(spec, scene);
     return scene;
 }
 

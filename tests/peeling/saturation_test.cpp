@@ -8,9 +8,13 @@ namespace {
 
 using namespace strata::testing;
 using strata::peeling::RenderOptions;
+using strata::pipeline::DeviceProfile;
 using strata::pipeline::Diagnostic;
+using strata::pipeline::DrawList;
 using strata::pipeline::Fault;
+using strata::pipeline::find_profile;
 using strata::pipeline::Format;
+using strata::pipeline::HalfRounding;
 
 // 2,047 fragments on pixel 3, 2,049 on pixels 6 and 7.
 FragmentScene deep_pixels() {
@@ -41,5 +45,26 @@ TEST_CASE("a count of fragments that a half cannot represent is reported with it
             CHECK_FALSE(has_diagnostic(result, Fault::early_end));
             options.average_count = Format::r32f;
             CHECK_FALSE(has_diagnostic(render(scene, {profile, "weighted_average"}, options), Fault::half_saturated));
+        }
+}
+
+TEST_CASE("sums that stop at the greatest half are reported where halves are rounded toward zero or have no infinity") {
+    FragmentScene scene{4, 2};  // sums of colours of 60000 and 180000
+    scene.pixels[1].fragments.assign(20, {0.5f, {6000, 0, 0, 0.5f}});
+    scene.pixels[6].fragments.assign(60, {0.5f, {6000, 0, 0, 0.5f}});
+    for (const char* algorithm : {"weighted_average", "weighted_sum", "weighted_blended"})
+        for (const HalfRounding rounding :
+             {HalfRounding::nearest_even, HalfRounding::toward_zero, HalfRounding::no_infinity}) {
+            DeviceProfile profile = *find_profile("direct3d11");
+            profile.half_rounding = rounding;
+            RenderOptions options = options_for(scene);
+            options.algorithm.weight = strata::peeling::Weight::none;
+            const DrawList list = draw_list(scene);
+            strata::peeling::Renderer renderer{list, {}, profile, options};
+            const auto result = renderer.render(*strata::peeling::find_algorithm(algorithm));
+            INFO(algorithm << ", rounding " << static_cast<int>(rounding));
+            CHECK(diagnosed(result, Fault::half_saturated) == 1);
+            for (const Diagnostic& d : result.frame.diagnostics)
+                if (d.fault == Fault::half_saturated) CHECK((d.first_x == 2 && d.first_y == 1));
         }
 }

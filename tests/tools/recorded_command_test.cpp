@@ -112,6 +112,9 @@ TEST_CASE("a picture's command names files in its own folder or in that of --fil
         std::filesystem::remove(folder / "new.png");
         return ended;
     };
+    CHECK(run("-").err ==
+          "strata: own/a.png: strata:command: expected the name of a scene, found '-': the scene came from standard "
+          "input, and no file holds it\n");
     const std::string pwd = folder.path().string();
     for (const std::string& words :
          {std::string{"../panes.json"}, pwd + "/panes.json", std::string{"up/panes.json"}, std::string{"link.json"},

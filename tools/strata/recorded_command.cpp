@@ -87,7 +87,8 @@ class Recorded {
     }
 
     [[nodiscard]] std::string scene(const std::string& name) const {
-        if (scenes::is_procedural(name) || name == "-") return name;
+        if (scenes::is_procedural(name)) return name;
+        if (name == "-") fail("the name of a scene", "'-': the scene came from standard input, and no file holds it");
         if (name.starts_with('-')) fail("a scene", "'" + name + "'");
         return path_of(name);
     }

@@ -10,6 +10,7 @@
 // tests/peeling/execution_test.cpp shows that the bits equal the pass's.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/average.h"
+#include "peeling/programs/overflow.h"
 
 namespace strata::peeling::listing::weighted_average {
 
@@ -39,13 +40,15 @@ struct StuckPixels {
 // Reads sums, count and background.
 StuckPixels resolve(Region& region, const PassState& state) {
     const bool half_count = region.storage(state.reads[1]).format() == Format::r16f;
+    const float least = least_overflow(region, state.reads[0]);
     StuckPixels stuck;
     static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         const ColorLanes& sum = loads.color(0);
         const Lanes<float>& n = loads.color(1)[0];
         resolve_average(sum, n, loads.color(2), out.color[0], lanes(in));
         for (std::size_t i = 0; i < lanes(in); ++i) {
-            if (!(half_count && n[i] >= 2048.0f) && sum[3][i] <= 65504.0f) continue;
+            const bool is_sum_whole = sum[0][i] < least && sum[1][i] < least && sum[2][i] < least && sum[3][i] < least;
+            if (!(half_count && n[i] >= 2048.0f) && is_sum_whole) continue;
             ++stuck.pixels;
             stuck.first = std::min(stuck.first, in.pixel[i]);
         }

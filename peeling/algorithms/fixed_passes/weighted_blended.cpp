@@ -59,11 +59,10 @@ void accumulate(Region& region, const ListingInputs& inputs, Form form, Target s
     }));
 }
 
-// The full-screen pass: resolves the two targets over the background, and reports the pixels whose sums exceed the
-// greatest number of their format.
+// The full-screen pass: resolves the two targets over the background, and reports the pixels whose sums have become
+// infinite; the region reports those that stopped at the greatest half.
 void resolve(Region& region, Form form, const PassState& state) {
-    const bool half = region.storage(state.reads[0]).format() == Format::rgba16f;
-    const float limit = half ? 65504.0f : std::numeric_limits<float>::max();
+    constexpr float infinity = std::numeric_limits<float>::infinity();
     PixelSet saturated{region};
     static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         const ColorLanes &sum = loads.color(0), &background = loads.color(2);
@@ -71,7 +70,7 @@ void resolve(Region& region, Form form, const PassState& state) {
               &revealage = form == Form::apart ? loads.color(1)[0] : sum[3];
         resolve_weighted(sum, weights, revealage, background, out.color[0], lanes(in));
         for (std::size_t i = 0; i < lanes(in); ++i)
-            if (!(weights[i] <= limit && sum[0][i] <= limit && sum[1][i] <= limit && sum[2][i] <= limit))
+            if (!(weights[i] < infinity && sum[0][i] < infinity && sum[1][i] < infinity && sum[2][i] < infinity))
                 saturated.add(in.pixel[i]);
     }));
     saturated.report(region, Fault::half_saturated, "a sum of weighted colours has overflowed");

@@ -30,13 +30,20 @@ void run(Region& region) {
     PassState resolve;
     resolve.color[0] = result;
     resolve.reads = {sums, region.opaque_color()};
-    static_cast<void>(region.full_screen(resolve, [](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+    const float least = least_overflow(region, sums);
+    PixelSet overflown{region};
+    static_cast<void>(region.full_screen(resolve, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
+        const ColorLanes& sum = loads.color(0);
+        for (std::size_t i = 0; i < lanes(in); ++i)
+            if (!(sum[0][i] < least && sum[1][i] < least && sum[2][i] < least && sum[3][i] < least))
+                overflown.add(in.pixel[i]);
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t i = 0; i < lanes(in); ++i)
                 out.color[0][c][i] = loads.color(0)[c][i] + loads.color(1)[c][i] * (1.0f - loads.color(0)[3][i]);
         for (std::size_t i = 0; i < lanes(in); ++i)
             out.color[0][3][i] = scalar::alpha_over(1.0f - loads.color(0)[3][i], loads.color(1)[3][i]);
     }));
+    overflown.report(region, Fault::half_saturated, "a sum of colours has overflowed");
     region.publish(result);
 }
 

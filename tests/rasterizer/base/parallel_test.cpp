@@ -1,11 +1,16 @@
 // Tests parallel loops against a plain loop; each index writes to its own element.
 #include "rasterizer/base/parallel.h"
 
+#include <sys/resource.h>
+
+#include <atomic>
 #include <bit>
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rasterizer/base/exact_sum.h"
@@ -45,6 +50,46 @@ TEST_CASE("an exception of a body reaches the caller with its message from one t
         }
         CHECK(words == "index 42");
     }
+}
+
+TEST_CASE("a loop whose bodies use up all memory ends with an exception in the caller") {
+    const auto nothing = [](std::size_t) {};
+    strata::parallel_for(8, 2, nothing);  // starts the threads
+    std::size_t pages = 0;
+    std::ifstream{"/proc/self/statm"} >> pages;
+    rlimit limit{};
+    REQUIRE((pages > 0 && getrlimit(RLIMIT_AS, &limit) == 0));
+    if (pages > std::size_t{1} << 28) return;  // the address space of a sanitizer, which has no such limit
+    const rlimit before = limit;
+    limit.rlim_cur = pages * 4096 + (std::size_t{8} << 20);
+    REQUIRE(setrlimit(RLIMIT_AS, &limit) == 0);
+    struct Block {
+        Block* next;
+    };
+    std::atomic<Block*> blocks = nullptr;
+    const auto take_all = [&](std::size_t size) {
+        try {
+            for (;;) {
+                auto* const block = new (strata::take_memory(size)) Block{blocks};
+                while (!blocks.compare_exchange_weak(block->next, block)) {
+                }
+            }
+        } catch (const std::bad_alloc&) {
+        }
+    };
+    bool is_thrown = false;
+    try {
+        strata::parallel_for(64, 2, [&](std::size_t) {
+            for (const std::size_t size : {std::size_t{1} << 16, std::size_t{1} << 10, sizeof(Block)}) take_all(size);
+            throw std::bad_alloc{};
+        });
+    } catch (const std::bad_alloc&) {
+        is_thrown = true;
+    }
+    setrlimit(RLIMIT_AS, &before);
+    for (Block* block = blocks; block != nullptr;) strata::give_memory(std::exchange(block, block->next));
+    CHECK(is_thrown);
+    strata::parallel_for(8, 2, nothing);
 }
 
 TEST_CASE("a number of threads is used unchanged and 0 means that of the machine which is at least one") {

@@ -4,6 +4,7 @@
 
 #include "rasterizer/base/input_error.h"
 #include "tests/scenes/gltf/gltf_file.h"
+#include "tests/scenes/scenes_support.h"
 
 namespace {
 
@@ -106,6 +107,19 @@ TEST_CASE("the scene is that of --scene or else the file's own or the first and 
     file.json.erase("scenes");
     CHECK(file.load().list.instances.size() == 2);
     CHECK(file.load().warnings == std::vector<std::string>{"/scenes: the file has no scene: all its nodes are shown"});
+}
+
+TEST_CASE("an instance that a scale of 0 makes a line or a point is reported and a flat one is not") {
+    const strata::test::TemporaryFolder folder;
+    const auto warnings = [&](const Json& scale) {
+        std::ofstream{folder / "a.gltf"} << triangle({{"scale", scale}}).document().dump();
+        return load_scene(folder / "a.gltf", {}).warnings;
+    };
+    for (const Json& scale : {Json{0, 0, 0}, Json{2, 0, 0}, Json{0, 0, -1}})
+        CHECK(warnings(scale) == std::vector{folder / "a.gltf" +
+                                             ": 1 of 1 instances have a scale of 0 and are not drawn; the first is "
+                                             "instance 0"});
+    for (const Json& scale : {Json{1, 1, 0}, Json{1e-30, 1e-30, 1e-30}}) CHECK(warnings(scale).empty());
 }
 
 TEST_CASE("a camera looks along its node's -z for any scale or mirroring of the node") {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <deque>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -39,17 +40,7 @@ OtherList copy_of(const PixelList& list) {
             .has_opaque = list.has_opaque};
 }
 
-// The lists of every pixel of a rendering.
-std::vector<OtherList> lists_of(const SceneFragments& scene) {
-    std::vector<OtherList> lists(static_cast<std::size_t>(scene.width()) * static_cast<std::size_t>(scene.height()));
-    scene.for_each_tile([&](const TileLists& tile) {
-        for (std::size_t p = 0; p < tile.rect.area(); ++p) {
-            const PixelList list = scene.at(tile, p);
-            lists[static_cast<std::size_t>(list.y * scene.width() + list.x)] = copy_of(list);
-        }
-    });
-    return lists;
-}
+bool is_blank(const PixelList& list) noexcept { return list.visible.empty() && list.hidden.empty(); }
 
 // True if the same triangles cover the pixel, visible and hidden, with nearly the same opaque surface.
 bool is_covered_alike(const OtherList& a, const OtherList& b) {
@@ -331,42 +322,112 @@ class EdgeMaker {
 
 }  // namespace
 
-Coverages::Coverages(const RunInput& input, const SceneFragments& given) : width_{given.width()} {
-    constexpr std::uint64_t bytes = std::uint64_t{1} << 30;
-    std::vector<std::vector<OtherList>> drawings;
-    drawings.push_back(lists_of(given));
-    using rasterizer::TieRule;
-    for (const TieRule rule : {TieRule::top_left, TieRule::top_right, TieRule::bottom_left, TieRule::bottom_right}) {
-        if (rule == input.profile.raster.tie_rule) continue;
-        pipeline::DeviceProfile profile = input.profile;
-        profile.raster.tie_rule = rule;
-        drawings.push_back(lists_of(SceneFragments{{input.list, input.view, profile, input.options}, bytes}));
-    }
-    for (const double right : {moved_by, -moved_by})
-        for (const double up : {moved_by, -moved_by}) {
-            const pipeline::VertexAlteration change = moved(right, up, input.options.width, input.options.height);
-            peeling::RenderOptions options = input.options;
-            options.vertex_alteration = &change;
-            drawings.push_back(lists_of(SceneFragments{{input.list, input.view, input.profile, options}, bytes}));
+namespace {
+
+// The renderings of some rows: by every tie rule, then moved.
+class EightDrawings {
+  public:
+    EightDrawings(const RunInput& input, const SceneFragments& given, const Rows& rows) : given_{given} {
+        constexpr std::uint64_t bytes = std::uint64_t{1} << 30;
+        using rasterizer::TieRule;
+        for (const TieRule rule :
+             {TieRule::top_left, TieRule::top_right, TieRule::bottom_left, TieRule::bottom_right}) {
+            if (rule == input.profile.raster.tie_rule) continue;
+            pipeline::DeviceProfile& profile = profiles_.emplace_back(input.profile);
+            profile.raster.tie_rule = rule;
+            others_.emplace_back(RunInput{input.list, input.view, profile, input.options}, bytes, rows);
         }
-    number_.assign(drawings[0].size(), 0);
-    for (std::size_t p = 0; p < number_.size(); ++p) {
-        std::vector<const OtherList*> of_pixel;
-        for (const auto& drawing : drawings) of_pixel.push_back(&drawing[p]);
-        find_spreads(drawings[0][p], Drawings{of_pixel}.subspan(tie_drawings));
-        keep_spreads(drawings[0][p]);
-        EdgePixel edge = EdgeMaker{std::move(of_pixel)}.make();
-        if (edge.others.empty() && !edge.has_centre_on_edge) continue;
-        pixels_.push_back(std::move(edge));
-        number_[p] = static_cast<std::uint32_t>(pixels_.size());
+        for (const double right : {moved_by, -moved_by})
+            for (const double up : {moved_by, -moved_by}) {
+                peeling::RenderOptions options = input.options;
+                options.vertex_alteration =
+                    &changes_.emplace_back(moved(right, up, input.options.width, input.options.height));
+                others_.emplace_back(RunInput{input.list, input.view, input.profile, options}, bytes, rows);
+            }
+    }
+
+    // The lists of a pixel, the given rendering's first. They are valid until the next call.
+    [[nodiscard]] std::span<OtherList> at(int x, int memory_row) {
+        lists_.clear();
+        lists_.push_back(copy_of(given_.list_at(x, memory_row)));
+        for (const SceneFragments& other : others_) lists_.push_back(copy_of(other.list_at(x, memory_row)));
+        return lists_;
+    }
+
+    // True if no rendering has a fragment there, and all have the same surface behind it.
+    [[nodiscard]] bool is_plain(int x, int memory_row) const {
+        const PixelList given = given_.list_at(x, memory_row);
+        return is_blank(given) && std::ranges::all_of(others_, [&](const SceneFragments& other) {
+                   const PixelList list = other.list_at(x, memory_row);
+                   return is_blank(list) && list.has_opaque == given.has_opaque && list.opaque == given.opaque &&
+                          list.behind == given.behind;
+               });
+    }
+
+  private:
+    const SceneFragments& given_;
+    // The renderings refer to these.
+    std::deque<pipeline::DeviceProfile> profiles_{};
+    std::deque<pipeline::VertexAlteration> changes_{};
+    std::deque<SceneFragments> others_{};
+    std::vector<OtherList> lists_{};
+};
+
+// Bands of rows whose eight renderings take about as much memory as a quarter of the picture's bound.
+std::vector<Rows> bands_of(const SceneFragments& scene) {
+    constexpr std::uint64_t drawings = 8, least = std::uint64_t{24} << 20, bytes_a_pixel = 24, of_pixel = 28;
+    constexpr int step = 64;  // rows of a tile
+    const auto width = static_cast<std::uint64_t>(scene.width());
+    const std::uint64_t most = std::max(least, bytes_a_pixel * width * static_cast<std::uint64_t>(scene.height()));
+    const std::vector<std::uint64_t> bytes = scene.bytes_of_rows();
+    std::vector<Rows> bands{{0, 0}};
+    std::uint64_t sum = 0;
+    for (int y = 0; y < scene.height(); y += step) {
+        const int end = std::min(y + step, scene.height());
+        std::uint64_t more = 0;
+        for (int row = y; row < end; ++row) more += drawings * (bytes[static_cast<std::size_t>(row)] + of_pixel * width);
+        if (sum + more > most && bands.back().end > bands.back().first) {
+            bands.push_back({y, y});
+            sum = 0;
+        }
+        sum += more;
+        bands.back().end = end;
+    }
+    return bands;
+}
+
+}  // namespace
+
+Coverages::Coverages(const RunInput& input, const SceneFragments& given, const TakeSpreads& take)
+    : width_{given.width()} {
+    number_.assign(static_cast<std::size_t>(given.width()) * static_cast<std::size_t>(given.height()), 0);
+    for (const Rows& rows : bands_of(given)) {
+        EightDrawings drawings{input, given, rows};
+        for (int row = rows.first; row < rows.end; ++row)
+            for (int x = 0; x < given.width(); ++x) {
+                if (drawings.is_plain(x, row)) continue;
+                add(given.list_at(x, row), row, drawings.at(x, row), take);
+            }
     }
 }
 
-void Coverages::keep_spreads(const OtherList& list) {
-    std::vector<float>& spreads = spreads_.emplace_back();
-    for (const auto* part : {&list.visible, &list.hidden})
+void Coverages::add(const PixelList& pixel, int memory_row, std::span<OtherList> lists, const TakeSpreads& take) {
+    std::vector<const OtherList*> of_pixel;
+    for (const OtherList& list : lists) of_pixel.push_back(&list);
+    find_spreads(lists[0], Drawings{of_pixel}.subspan(tie_drawings));
+    std::vector<float> spreads;
+    for (const auto* part : {&lists[0].visible, &lists[0].hidden})
         for (const Fragment& f : *part) spreads.push_back(f.spread);
-    behind_spreads_.push_back(list.behind_spread);
+    if (!spreads.empty()) take(pixel.x, memory_row, spreads);
+    const std::size_t at = index(pixel.x, pixel.y);
+    if (lists[0].behind_spread > 0) {
+        behind_spreads_.resize(number_.size());
+        behind_spreads_[at] = lists[0].behind_spread;
+    }
+    EdgePixel edge = EdgeMaker{std::move(of_pixel)}.make();
+    if (edge.others.empty() && !edge.has_centre_on_edge) return;
+    pixels_.push_back(std::move(edge));
+    number_[at] = static_cast<std::uint32_t>(pixels_.size());
 }
 
 const EdgePixel* Coverages::at(int x, int y) const noexcept {

@@ -12,6 +12,8 @@
 //          code or of the largest difference between the renderings, whichever is larger.
 // Tests    tests/tools/oracle/verdict/coverages_test.cpp
 #pragma once
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "tools/oracle/verdict/fragments.h"
@@ -35,26 +37,31 @@ struct EdgePixel {
     bool has_centre_on_edge = false;
 };
 
+// Takes the spreads of a pixel's fragments, visible ones first, if there are any.
+using TakeSpreads = std::function<void(int x, int memory_row, std::span<const float> spreads)>;
+
 class Coverages {
   public:
-    // Renders the scene seven times in addition to `given`. Has no data if the scene's fragments were not kept.
-    Coverages(const RunInput& input, const SceneFragments& given);
+    // Renders the scene seven times in addition to `given`, whose fragments must have been kept. The rows are rendered
+    // in bands, so that the seven pictures take no more memory than `given` does.
+    Coverages(const RunInput& input, const SceneFragments& given, const TakeSpreads& take);
 
     [[nodiscard]] const EdgePixel* at(int x, int y) const noexcept;
     [[nodiscard]] std::size_t count() const noexcept { return pixels_.size(); }
-    // The spreads of a pixel's fragments, visible ones first; behind_spread(): of the surface behind them.
-    [[nodiscard]] const std::vector<float>& spreads(int x, int y) const noexcept { return spreads_[index(x, y)]; }
-    [[nodiscard]] float behind_spread(int x, int y) const noexcept { return behind_spreads_[index(x, y)]; }
+    // The spread of the surface behind a pixel's fragments.
+    [[nodiscard]] float behind_spread(int x, int y) const noexcept {
+        return behind_spreads_.empty() ? 0 : behind_spreads_[index(x, y)];
+    }
 
   private:
-    void keep_spreads(const OtherList& list);
+    // Adds a pixel with its list in every rendering, the given one's first.
+    void add(const PixelList& pixel, int memory_row, std::span<OtherList> lists, const TakeSpreads& take);
     [[nodiscard]] std::size_t index(int x, int y) const noexcept {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
     }
 
     int width_ = 0;
-    std::vector<std::vector<float>> spreads_{};
-    std::vector<float> behind_spreads_{};
+    std::vector<float> behind_spreads_{};  // empty: all 0
     std::vector<std::uint32_t> number_{};  // per pixel: its number in pixels_, from 1; 0: no edge
     std::vector<EdgePixel> pixels_{};
 };

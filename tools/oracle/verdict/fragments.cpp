@@ -26,6 +26,8 @@ struct Captured {
     Fragment fragment{};
 };
 
+constexpr int tile_side = 64;  // pixels
+
 constexpr rasterizer::FragmentNeeds all_values{
     .shader_z = true, .code = true, .exact_code = false, .color = true, .texcoord = false, .facing = true};
 
@@ -123,15 +125,16 @@ std::vector<rasterizer::Rect> rest_of_frame(int width, int height, std::span<con
 
 }  // namespace
 
-SceneFragments::SceneFragments(const RunInput& input, std::uint64_t bytes)
+SceneFragments::SceneFragments(const RunInput& input, std::uint64_t bytes, const Rows& rows)
     : input_{input},
+      rows_{rows},
       setting_{setting_of(input.list, input.view, input.options.background)},
       instance_of_{instances_of(input)} {
     find_nearness(input.list, input.view, instance_of_, setting_);
     far_code_ = rasterizer::max_code(input.profile.depth_buffer(input.options.depth));
     std::mutex mutex;
     std::vector<rasterizer::Rect> rects;
-    behind_ = draw([&](TileLists&& tile) {
+    keep_behind(draw([&](TileLists&& tile) {
         const std::scoped_lock lock{mutex};
         rects.push_back(tile.rect);
         count_ += tile.fragments.size();
@@ -144,11 +147,38 @@ SceneFragments::SceneFragments(const RunInput& input, std::uint64_t bytes)
             kept_.push_back(std::move(tile));
         else
             kept_.clear();
-    });
+    }));
     // Threads finish tiles in any order.
     std::ranges::sort(kept_, {}, [](const TileLists& t) { return std::pair{t.rect.y0, t.rect.x0}; });
     index_tiles();
-    blank_ = rest_of_frame(behind_.width, behind_.height, rects);
+    if (rows_.end >= height()) blank_ = rest_of_frame(width(), height(), rects);
+}
+
+void SceneFragments::keep_behind(const pipeline::Image& drawn) {
+    const peeling::AsShown shown{input_.options, input_.profile};
+    const rasterizer::Rect held =
+        shown.rect({0, std::max(rows_.first, 0), drawn.width, std::min(rows_.end, drawn.height)});
+    first_behind_ = held.y0;
+    const auto color = [&](int x, int y) {
+        Rgba value{};
+        for (int c = 0; c < 4; ++c) value[c] = std::bit_cast<float>(drawn.codes[drawn.index(x, y, c)]);
+        return value;
+    };
+    const std::uint32_t* const first = &drawn.codes[drawn.index(0, held.y0)];
+    const auto words = static_cast<std::size_t>(drawn.index(0, held.y1 - 1) - drawn.index(0, held.y0)) +
+                       static_cast<std::size_t>(drawn.width) * 4;
+    const bool is_one = std::equal(first, first + words - 4, first + 4);
+    if (is_one) behind_ = {color(0, held.y0)};
+    if (is_one) return;
+    behind_.reserve(words / 4);
+    for (int y = held.y0; y < held.y1; ++y)
+        for (int x = 0; x < drawn.width; ++x) behind_.push_back(color(x, y));
+}
+
+Rgba SceneFragments::behind_at(int x, int y) const noexcept {
+    if (behind_.size() == 1) return behind_[0];
+    return behind_[static_cast<std::size_t>(y - first_behind_) * static_cast<std::size_t>(width()) +
+                   static_cast<std::size_t>(x)];
 }
 
 // Renders the scene and passes each tile to `take`. Blank tiles are not processed one by one: the renderer runs only
@@ -163,10 +193,13 @@ pipeline::Image SceneFragments::draw(const std::function<void(TileLists&&)>& tak
     options.execution = pipeline::Execution::replay;
     options.max_passes = 0;
     options.termination = {};
+    options.tile_size = tile_side;
     peeling::Algorithm fragments;
     fragments.name = "fragments";
     fragments.body = [&](Region& region) {
-        take(sorted_into_lists(region, capture(region, instance_of_, input_.list.instances)));
+        const rasterizer::Rect rect = region.rect(), frame = region.frame().rect();
+        if (rect.y0 - frame.y0 < rows_.end && rect.y1 - frame.y0 > rows_.first)
+            take(sorted_into_lists(region, capture(region, instance_of_, input_.list.instances)));
         region.publish(region.opaque_color());
     };
     peeling::Renderer renderer{input_.list, input_.view, profile, options};
@@ -191,37 +224,68 @@ void SceneFragments::for_each_tile(const std::function<void(const TileLists&)>& 
 
 void SceneFragments::index_tiles() {
     if (!keeps_) return;
-    tile_of_.assign(static_cast<std::size_t>(behind_.width) * static_cast<std::size_t>(behind_.height), 0);
+    const auto squares = [](int length) { return static_cast<std::size_t>((length + tile_side - 1) / tile_side); };
+    columns_ = squares(width());
+    tile_of_.assign(columns_ * squares(height()), 0);
     for (std::size_t t = 0; t < kept_.size(); ++t) {
-        const rasterizer::Rect& r = kept_[t].rect;
-        for (int y = r.y0; y < r.y1; ++y) {
-            const auto row = tile_of_.begin() + static_cast<std::ptrdiff_t>(y) * behind_.width;
-            std::fill(row + r.x0, row + r.x1, static_cast<std::uint32_t>(t + 1));
-        }
+        const rasterizer::Rect& r = kept_[t].rect;  // one square, or the whole frame
+        for (std::size_t y = squares(r.y0); y < squares(r.y1); ++y)
+            for (std::size_t x = squares(r.x0); x < squares(r.x1); ++x)
+                tile_of_[y * columns_ + x] = static_cast<std::uint32_t>(t + 1);
     }
 }
 
+const TileLists* SceneFragments::tile_at(int x, int memory_row) const noexcept {
+    const std::uint32_t number = tile_of_[static_cast<std::size_t>(memory_row / tile_side) * columns_ +
+                                          static_cast<std::size_t>(x / tile_side)];
+    return number == 0 ? nullptr : &kept_[number - 1];
+}
+
+namespace {
+
+std::size_t index_in(const TileLists& tile, int x, int memory_row) noexcept {
+    return static_cast<std::size_t>(memory_row - tile.rect.y0) * static_cast<std::size_t>(tile.rect.width()) +
+           static_cast<std::size_t>(x - tile.rect.x0);
+}
+
+}  // namespace
+
 std::span<const Fragment> SceneFragments::visible_at(int x, int y) const noexcept {
-    if (x < 0 || y < 0 || x >= width() || y >= height()) return {};
-    const std::uint32_t number =
-        tile_of_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width()) + static_cast<std::size_t>(x)];
-    if (number == 0) return {};
-    const TileLists& tile = kept_[number - 1];
-    const std::size_t pixel = static_cast<std::size_t>(y - tile.rect.y0) * static_cast<std::size_t>(tile.rect.width()) +
-                              static_cast<std::size_t>(x - tile.rect.x0);
-    return std::span{tile.fragments}.subspan(tile.start[pixel], tile.hidden[pixel] - tile.start[pixel]);
+    if (!keeps_ || x < 0 || y < 0 || x >= width() || y >= height()) return {};
+    const int row = peeling::AsShown{input_.options, input_.profile}.row(y);
+    const TileLists* const tile = tile_at(x, row);
+    if (tile == nullptr) return {};
+    const std::size_t pixel = index_in(*tile, x, row);
+    return std::span{tile->fragments}.subspan(tile->start[pixel], tile->hidden[pixel] - tile->start[pixel]);
+}
+
+PixelList SceneFragments::list_at(int x, int memory_row) const noexcept {
+    if (const TileLists* const tile = tile_at(x, memory_row)) return at(*tile, index_in(*tile, x, memory_row));
+    const int y = peeling::AsShown{input_.options, input_.profile}.row(memory_row);
+    return {.x = x, .y = y, .behind = behind_at(x, y), .opaque = far_code_, .scene = this};
+}
+
+std::vector<std::uint64_t> SceneFragments::bytes_of_rows() const {
+    std::vector<std::uint64_t> bytes(static_cast<std::size_t>(height()));
+    for (const TileLists& tile : kept_) {
+        const std::uint64_t of_row = (tile.fragments.size() * sizeof(Fragment) + tile.rect.area() * 12) /
+                                     static_cast<std::uint64_t>(tile.rect.height());
+        for (int y = tile.rect.y0; y < tile.rect.y1; ++y) bytes[static_cast<std::size_t>(y)] += of_row;
+    }
+    return bytes;
 }
 
 void SceneFragments::find_coverages() {
     constexpr std::uint64_t most_fragments = std::uint64_t{1} << 21;
     if (coverages_ != nullptr || !keeps_ || count_ > most_fragments) return;
-    coverages_ = std::make_shared<const Coverages>(input_, *this);
-    for (TileLists& tile : kept_)
-        for (std::size_t p = 0; p + 1 < tile.start.size(); ++p) {
-            const PixelList list = at(tile, p);
-            const auto& spreads = coverages_->spreads(list.x, list.y);
-            for (std::size_t i = 0; i < spreads.size(); ++i) tile.fragments[tile.start[p] + i].spread = spreads[i];
-        }
+    const auto set_spread = [&](int x, int memory_row, std::span<const float> spreads) {
+        const std::uint32_t number = tile_of_[static_cast<std::size_t>(memory_row / tile_side) * columns_ +
+                                              static_cast<std::size_t>(x / tile_side)];
+        TileLists& tile = kept_[number - 1];
+        const std::size_t first = tile.start[index_in(tile, x, memory_row)];
+        for (std::size_t i = 0; i < spreads.size(); ++i) tile.fragments[first + i].spread = spreads[i];
+    };
+    coverages_ = std::make_shared<const Coverages>(input_, *this, set_spread);
 }
 
 PixelList SceneFragments::at(const TileLists& tile, std::size_t pixel) const noexcept {
@@ -237,9 +301,7 @@ PixelList SceneFragments::at(const TileLists& tile, std::size_t pixel) const noe
     list.opaque = tile.opaque[pixel];
     list.has_opaque = list.opaque != far_code_;
     list.scene = keeps_ ? this : nullptr;
-    for (int c = 0; c < 4; ++c)
-        list.behind[static_cast<std::size_t>(c)] =
-            std::bit_cast<float>(behind_.codes[behind_.index(list.x, list.y, c)]);
+    list.behind = behind_at(list.x, list.y);
     if (coverages_ != nullptr) {
         list.edge = coverages_->at(list.x, list.y);
         list.behind_spread = coverages_->behind_spread(list.x, list.y);

@@ -4,12 +4,13 @@
 // Rule     A pixel's list contains its visible fragments by depth code, equal codes in submission order; then its
 //          hidden ones, at or behind the opaque surface, in the same order. Lists are passed tile by tile, each tile
 //          once, including tiles without fragments.
-// Numbers  44 bytes per fragment. Tiles are kept if they fit into the given memory; otherwise the scene is rendered
-//          again for each traversal.
+// Numbers  44 bytes per fragment, 12 per pixel of a tile with fragments, and 16 per pixel if something opaque is drawn.
+//          Tiles are kept if they fit into the given memory; otherwise the scene is rendered again for each traversal.
 // Tests    tests/tools/oracle/verdict/fragments_test.cpp
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -57,14 +58,20 @@ struct TileLists {
     std::vector<std::uint32_t> opaque{};  // per pixel: depth code of the opaque surface
 };
 
+// Rows of a frame in memory order.
+struct Rows {
+    int first = 0, end = std::numeric_limits<int>::max();
+};
+
 class SceneFragments {
   public:
-    // Renders the scene. `bytes` limits the kept fragments. Throws Refused and InputError like a renderer. Objects that
-    // `input` refers to must outlive this.
-    SceneFragments(const RunInput& input, std::uint64_t bytes);
+    // Renders the scene. `bytes` limits the kept fragments. Only tiles that intersect `rows` are rendered and kept: the
+    // other ones look blank. Throws Refused and InputError like a renderer. Objects that `input` refers to must outlive
+    // this.
+    SceneFragments(const RunInput& input, std::uint64_t bytes, const Rows& rows = {});
 
-    [[nodiscard]] int width() const noexcept { return behind_.width; }
-    [[nodiscard]] int height() const noexcept { return behind_.height; }
+    [[nodiscard]] int width() const noexcept { return input_.options.width; }
+    [[nodiscard]] int height() const noexcept { return input_.options.height; }
     [[nodiscard]] const Setting& setting() const noexcept { return setting_; }
     [[nodiscard]] const pipeline::DrawList& list() const noexcept { return input_.list; }
     [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
@@ -85,20 +92,34 @@ class SceneFragments {
     [[nodiscard]] PixelList at(const TileLists& tile, std::size_t pixel) const noexcept;  // `pixel`: index in the tile
     // The kept fragments of a pixel; empty if they were not kept, and outside the frame.
     [[nodiscard]] std::span<const Fragment> visible_at(int x, int y) const noexcept;
+    // The list of a pixel, in memory order of rows, if the fragments were kept.
+    [[nodiscard]] PixelList list_at(int x, int memory_row) const noexcept;
+    [[nodiscard]] bool keeps() const noexcept { return keeps_; }
+    // Bytes of the kept lists in a row of pixels, for all rows in memory order.
+    [[nodiscard]] std::vector<std::uint64_t> bytes_of_rows() const;
 
   private:
     // Renders the scene once and passes all tiles that are not blank to `take`. Returns the opaque scene's colours.
     pipeline::Image draw(const std::function<void(TileLists&&)>& take) const;
 
+    // Keeps the colours behind the fragments of these rows; one colour if it is the same everywhere.
+    void keep_behind(const pipeline::Image& drawn);
+    [[nodiscard]] Rgba behind_at(int x, int y) const noexcept;
     void index_tiles();
+    [[nodiscard]] const TileLists* tile_at(int x, int memory_row) const noexcept;
 
     RunInput input_;
+    Rows rows_;
     Setting setting_;
     std::vector<std::uint32_t> instance_of_{};  // per primitive
     std::uint32_t far_code_ = 0;                // depth code without an opaque surface
-    pipeline::Image behind_{};                  // rgba32f
+    // The colours behind the fragments, row by row from the top: of the rows from first_behind_ on, or a single one.
+    std::vector<Rgba> behind_{};
+    int first_behind_ = 0;
     std::vector<TileLists> kept_{};
-    std::vector<std::uint32_t> tile_of_{};   // per pixel of the frame: its tile, from 1; 0: no fragments
+    // By square of `tile_side` pixels, row by row: the number of its tile, from 1; 0: no fragments.
+    std::vector<std::uint32_t> tile_of_{};
+    std::size_t columns_ = 0;                // of such squares
     std::vector<rasterizer::Rect> blank_{};  // the area outside the tiles that ran
     std::shared_ptr<const Coverages> coverages_{};
     bool keeps_ = true, shows_at_far_plane_ = false;

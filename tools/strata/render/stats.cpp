@@ -158,6 +158,9 @@ std::string to_table(const std::vector<RunSummary>& runs, const RunContext& cont
     for (const RunSummary& run : runs) {
         table.rows.push_back(cells(run, context));
         for (const auto& diagnostic : run.result.frame.diagnostics) notes += describe(run.algorithm->name, diagnostic);
+        if (is_done(run) && context.audited && run.result.audit.max_difference > 255)
+            notes += fmt::format("{}: the greatest difference is {:.3f} times white: its colours exceed 1\n",
+                                 run.algorithm->name, run.result.audit.max_difference / 255);
     }
     return to_text(table) + notes;
 }
