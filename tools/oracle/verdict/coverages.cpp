@@ -385,7 +385,8 @@ std::vector<Rows> bands_of(const SceneFragments& scene) {
     for (int y = 0; y < scene.height(); y += step) {
         const int end = std::min(y + step, scene.height());
         std::uint64_t more = 0;
-        for (int row = y; row < end; ++row) more += drawings * (bytes[static_cast<std::size_t>(row)] + of_pixel * width);
+        for (int row = y; row < end; ++row)
+            more += drawings * (bytes[static_cast<std::size_t>(row)] + of_pixel * width);
         if (sum + more > most && bands.back().end > bands.back().first) {
             bands.push_back({y, y});
             sum = 0;

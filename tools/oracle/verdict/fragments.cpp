@@ -236,8 +236,8 @@ void SceneFragments::index_tiles() {
 }
 
 const TileLists* SceneFragments::tile_at(int x, int memory_row) const noexcept {
-    const std::uint32_t number = tile_of_[static_cast<std::size_t>(memory_row / tile_side) * columns_ +
-                                          static_cast<std::size_t>(x / tile_side)];
+    const std::uint32_t number =
+        tile_of_[static_cast<std::size_t>(memory_row / tile_side) * columns_ + static_cast<std::size_t>(x / tile_side)];
     return number == 0 ? nullptr : &kept_[number - 1];
 }
 
