@@ -106,8 +106,7 @@ void place(StoredPart& part, const Imath::Box2i& data, const Imath::Box2i& displ
     StoredPart placed{.header = part.header, .is_whole = true};
     placed.header.width = display.max.x - display.min.x + 1;
     placed.header.height = display.max.y - display.min.y + 1;
-    const auto pixels =
-        static_cast<std::size_t>(placed.header.width) * static_cast<std::size_t>(placed.header.height);
+    const auto pixels = static_cast<std::size_t>(placed.header.width) * static_cast<std::size_t>(placed.header.height);
     const std::size_t size = pixel_bytes(part.header);
     if (part.header.is_deep)
         placed.samples.assign(pixels, 0);
@@ -120,9 +119,9 @@ void place(StoredPart& part, const Imath::Box2i& data, const Imath::Box2i& displ
             const std::byte* const from = part.bytes.data() + sample * size;
             sample += samples;
             if (!display.intersects(Imath::V2i{x, y})) continue;
-            const auto to = static_cast<std::size_t>(y - display.min.y) *
-                                static_cast<std::size_t>(placed.header.width) +
-                            static_cast<std::size_t>(x - display.min.x);
+            const auto to =
+                static_cast<std::size_t>(y - display.min.y) * static_cast<std::size_t>(placed.header.width) +
+                static_cast<std::size_t>(x - display.min.x);
             if (part.header.is_deep) {
                 placed.samples[to] = part.samples[pixel];
                 placed.bytes.insert(placed.bytes.end(), from, from + samples * size);
