@@ -163,9 +163,9 @@ Scene loaded(const std::string& spec, const SceneOptions& options) {
 
 // True if the matrix maps every triangle to a line or a point: two axes at least are scaled to 0 or fall on one line.
 bool has_no_area(const pipeline::Matrix& m) noexcept {
-    for (glm::length_t a = 0; a < 3; ++a)
-        for (glm::length_t i = 0; i < 3; ++i) {
-            const glm::length_t b = (a + 1) % 3, j = (i + 1) % 3;
+    for (int a = 0; a < 3; ++a)
+        for (int i = 0; i < 3; ++i) {
+            const int b = (a + 1) % 3, j = (i + 1) % 3;
             if (m[a][i] * m[b][j] != m[a][j] * m[b][i]) return false;
         }
     return true;
@@ -180,10 +180,9 @@ void warn_of_scale_0(const std::string& spec, Scene& scene) {
             first = i;
         }
     if (count == 0) return;
-    const std::string& mesh = scene.list.meshes[instances[first].mesh].name;
     scene.warnings.push_back(spec + ": " + std::to_string(count) + " of " + std::to_string(instances.size()) +
                              " instances have a scale of 0 and are not drawn; the first is instance " +
-                             std::to_string(first) + (mesh.empty() ? "" : ", mesh '" + mesh + "'"));
+                             std::to_string(first) + ", mesh '" + scene.list.meshes[instances[first].mesh].name + "'");
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST_CASE("sums that stop at the greatest half are reported where halves are rou
             DeviceProfile profile = *find_profile("direct3d11");
             profile.half_rounding = rounding;
             RenderOptions options = options_for(scene);
-            options.algorithm.weight = strata::peeling::Weight::none;
+            options.algorithm.weight = strata::peeling::Weight::constant;
             const DrawList list = draw_list(scene);
             strata::peeling::Renderer renderer{list, {}, profile, options};
             const auto result = renderer.render(*strata::peeling::find_algorithm(algorithm));

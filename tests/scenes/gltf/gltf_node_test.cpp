@@ -116,9 +116,9 @@ TEST_CASE("an instance that a scale of 0 makes a line or a point is reported and
         return load_scene(folder / "a.gltf", {}).warnings;
     };
     for (const Json& scale : {Json{0, 0, 0}, Json{2, 0, 0}, Json{0, 0, -1}})
-        CHECK(warnings(scale) == std::vector{folder / "a.gltf" +
-                                             ": 1 of 1 instances have a scale of 0 and are not drawn; the first is "
-                                             "instance 0"});
+        CHECK(warnings(scale) ==
+              std::vector{folder / "a.gltf" + ": 1 of 1 instances have a scale of 0 and are not drawn; the first is "
+                                              "instance 0, mesh 'mesh 0'"});
     for (const Json& scale : {Json{1, 1, 0}, Json{1e-30, 1e-30, 1e-30}}) CHECK(warnings(scale).empty());
 }
 
