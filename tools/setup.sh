@@ -3,6 +3,7 @@
 #   tools/setup.sh program  those for building the program
 #   tools/setup.sh [tests]  and those of the tests
 #   tools/setup.sh all      and those of tools and tests that are only started by name
+#   tools/setup.sh python   those for building the program, and the Python package and its tests
 set -euo pipefail
 cd "$(dirname "$0")/.."
 fail() { echo "tools/setup.sh: $*" >&2; exit 3; }
@@ -11,7 +12,8 @@ case "${1:-tests}" in
     program) needed_sets="program" optional_sets="program?" ;;
     tests) needed_sets="program tests" optional_sets="program? tests?" ;;
     all) needed_sets="program tests" optional_sets="program? tests? all?" ;;
-    *) echo "tools/setup.sh: expected program, tests or all, found '$1'" >&2; exit 2 ;;
+    python) needed_sets="program python" optional_sets="program? python?" ;;
+    *) echo "tools/setup.sh: expected program, tests, all or python, found '$1'" >&2; exit 2 ;;
 esac
 
 # Lines "PACKAGE # why" of the named sets.
@@ -60,7 +62,7 @@ command -v dpkg-query >/dev/null || fail "this is neither Debian 12 nor one of i
     mapfile -t optional < <(listed $optional_sets | missing)
 }
 headers=()
-[ "$needed_sets" = program ] || mapfile -t headers < <(listed headers | while read -r package _; do [ -d "build/headers/$package" ] || echo "$package"; done)
+[[ "$needed_sets" != *tests* ]] || mapfile -t headers < <(listed headers | while read -r package _; do [ -d "build/headers/$package" ] || echo "$package"; done)
 [ $((${#needed[@]} + ${#optional[@]} + ${#headers[@]})) -gt 0 ] || exit 0
 
 all=("${needed[@]}" "${optional[@]}")

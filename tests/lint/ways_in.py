@@ -15,7 +15,7 @@ import tempfile
 
 import specification
 
-SETS = {"program", "program?", "tests", "tests?", "all?", "headers"}
+SETS = {"program", "program?", "tests", "tests?", "all?", "headers", "python", "python?"}
 # Packages that only tests and separately labelled tools need.
 NOT_FOR_THE_PROGRAM = {"zsh", "fish", "parallel", "gnuplot-nox", "catch2", "libboost-dev", "libgmp-dev", "libmpfr-dev", "clang", "valgrind", "locales",
                        "libegl-dev", "libgl1-mesa-dri"}
@@ -75,7 +75,7 @@ def scripts(root, files):
         if "build/release/strata report" in line and not ("--background" in line or (look and "--background" in look[1] and '"${look[@]}"' in line)):
             yield "tools/demo.sh: the report has no light background"
     ended = subprocess.run(["tools/setup.sh", "nonsense"], cwd=root, capture_output=True, text=True, check=False)
-    if ended.returncode != 2 or "program, tests or all" not in ended.stderr:
+    if ended.returncode != 2 or "program, tests, all or python" not in ended.stderr:
         yield "tools/setup.sh: takes a set that it does not know"
 
 

@@ -1,11 +1,36 @@
 """Builds the extension with CMake: against the shared libraries in the folder STRATA_PREFIX of the environment, else from these sources."""
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
 import setuptools
 from setuptools.command.build_ext import build_ext
+
+
+def terminal():
+    """The terminal, for progress: pip keeps what a build prints to itself. None if there is no terminal."""
+    try:
+        return open("/dev/tty", "w", encoding="utf-8")
+    except OSError:
+        return None
+
+
+def build_with_progress(build):
+    """Builds; the output is printed as it comes, and its share of steps is shown on the terminal."""
+    shown = None if sys.stderr.isatty() else terminal()
+    running = subprocess.Popen(["cmake", "--build", build], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    for line in running.stdout:
+        print(line, end="", flush=True)
+        step = re.match(r"\[(\d+)/(\d+)\]", line)
+        if shown and step:
+            print(f"\rstrata: {100 * int(step[1]) // int(step[2])} % of {step[2]} steps built", end="", file=shown, flush=True)
+    if shown:
+        print("\r" + 60 * " " + "\r", end="", file=shown, flush=True)
+        shown.close()
+    if running.wait() != 0:
+        raise subprocess.CalledProcessError(running.returncode, running.args)
 
 
 class CMakeBuild(build_ext):
@@ -18,7 +43,7 @@ class CMakeBuild(build_ext):
             options.append(f"-DSTRATA_PREFIX={os.environ['STRATA_PREFIX']}")
         # --fresh: a failed installation leaves a cache, whose values would be used again.
         subprocess.run(["cmake", "--fresh", "-S", source, "-B", build, "-G", "Ninja", *options], check=True)
-        subprocess.run(["cmake", "--build", build], check=True)
+        build_with_progress(build)
         subprocess.run(["cmake", "--install", build], check=True)
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Python package into a virtual environment of its own, as a user would, and tests it from there: no network is needed.
 #   tools/python/test.sh [FOLDER]   builds shared libraries, the package and the environment in FOLDER (default: build/python)
-# Exit status 77 (skipped) if Debian's packages of tools/packages.txt, "Python", are missing.
+# Exit status 77 (skipped) if Debian's packages of tools/packages.txt, "Python", are missing: tools/setup.sh python.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 source=$PWD

@@ -12,4 +12,6 @@ equal: bool = strata.compare(pixels, "reference.exr").equal
 ends: list[bool] = [layer.is_from_behind for layer in strata.layers(scene)]
 named: list[str] = strata.diagnose(scene, pixels, "dual", profile="geforce8").mistakes
 expected: npt.NDArray[Any] = strata.read("pack", "dual").arrays["color"]
+judged: bool = strata.judge(scene, pixels, samples=4).is_right
+own: strata.Rendering = strata.render(scene, lambda region: region.behind)
 words: str = strata.explain(scene, 1, 2).text

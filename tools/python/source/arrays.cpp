@@ -1,5 +1,6 @@
 // source/arrays.cpp - converts codes of pictures to NumPy arrays, and arrays to pictures.
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "bindings.h"
@@ -70,7 +71,7 @@ oracle::Code code_of(const py::array& array, bool is_depth) {
     if (is('u', 4)) return is_depth ? oracle::Code::unorm24 : oracle::Code::integer;
     if (is('f', 2)) return oracle::Code::half;
     if (is('f', 4)) return oracle::Code::single;
-    throw InputError("picture", "dtype", "uint8, uint16, uint32, float16 or float32",
+    throw InputError("picture", "dtype", "uint8, uint16, uint32, float16, float32 or float64",
                      py::str(static_cast<py::handle>(type)).cast<std::string>());
 }
 
@@ -92,7 +93,21 @@ py::array as_array(oracle::Target&& target) {
     return of_codes(type_of(kept->code), shape, kept->codes.data(), kept->codes.size(), kept);
 }
 
-Picture picture_of_array(const py::array& given, const std::string& meaning) {
+namespace {
+
+// In the machine's order of bytes; float64 as float32, booleans as bytes.
+py::array with_stored_type(const py::array& given) {
+    const py::dtype type = given.dtype();
+    const bool is_native = type.byteorder() != (std::endian::native == std::endian::little ? '>' : '<');
+    const bool is_double = type.kind() == 'f' && type.itemsize() == 8;
+    if (is_double) return given.attr("astype")("float32");
+    return is_native ? given : py::array{given.attr("astype")(type.attr("newbyteorder")("="))};
+}
+
+}  // namespace
+
+Picture picture_of_array(const py::array& any, const std::string& meaning) {
+    const py::array given = with_stored_type(any);
     const bool is_plane = given.ndim() == 2 || (given.ndim() == 3 && given.shape(2) == 1);
     if (meaning != "" && meaning != "color" && meaning != "depth")
         throw InputError("picture", "meaning", "color or depth", "'" + meaning + "'");

@@ -42,10 +42,23 @@ template <class Owner>
 // array's shape and type.
 [[nodiscard]] Picture picture_of_array(const py::array& array, const std::string& meaning);
 
-// Converts keyword arguments to RenderOptions; `origin` is set in the profile. Throws TypeError for an unknown keyword
-// and InputError for an invalid value.
-[[nodiscard]] RenderOptions options_of(const py::kwargs& keywords, DeviceProfile& profile);
+// The settings that keywords give.
+struct Settings {
+    RenderOptions options{};
+    Multisampling sampling{};
+};
+// Converts keyword arguments; `origin` is set in the profile. Throws TypeError for an unknown keyword and InputError
+// for an invalid value.
+[[nodiscard]] Settings settings_of(const py::kwargs& keywords, DeviceProfile& profile);
 
+// Calls the library with the interpreter lock released. The result is shared, so arrays can refer to its memory.
+template <class Work>
+auto unlocked(const Work& work) {
+    py::gil_scoped_release without_lock;
+    return std::make_shared<decltype(work())>(work());
+}
+
+void bind_own_algorithm(py::module_& module);
 void bind_scene(py::module_& module);
 void bind_results(py::module_& module);
 

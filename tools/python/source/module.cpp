@@ -23,6 +23,7 @@ PYBIND11_MODULE(_strata, module) {
     });
     bind_scene(module);
     bind_results(module);
+    bind_own_algorithm(module);
 }
 
 }  // namespace strata::python

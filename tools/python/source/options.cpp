@@ -1,4 +1,4 @@
-// source/options.cpp - converts keyword arguments to RenderOptions; each name and each value is checked.
+// source/options.cpp - converts keyword arguments to the settings of a frame; each name and each value is checked.
 #include <strata/rasterizer/base/enum_values.h>
 #include <strata/scenes/nearest_name.h>
 
@@ -22,9 +22,12 @@ Enum named(const std::string& field, const py::handle& value) {
                      scenes::quoted_with_suggestion(text, {enum_names<Enum>.begin(), enum_names<Enum>.end()}));
 }
 
-// The settings that keywords can change: the options of a frame, and the origin of the device's window.
+// What keywords can change: the options of a frame and its samples, and the origin of the device's window.
 struct KeywordSettings {
     RenderOptions options;
+    Multisampling sampling;
+    bool shades_pixels = false;
+    std::optional<rasterizer::Interpolation> interpolate;
     std::optional<pipeline::Origin> origin;
 };
 using Setter = std::function<void(KeywordSettings&, const std::string& field, const py::handle& value)>;
@@ -70,6 +73,26 @@ const std::map<std::string, Setter>& setters() {
              const auto c = value.cast<std::array<float, 4>>();
              settings.options.background = {c[0], c[1], c[2], c[3]};
          }},
+        {"samples",
+         [](KeywordSettings& settings, const std::string& field, const py::handle& value) {
+             const int samples = settings.sampling.samples = value.cast<int>();
+             if (samples != 1 && samples != 2 && samples != 4 && samples != 8)
+                 throw InputError("options", field, "1, 2, 4 or 8", std::to_string(samples));
+         }},
+        {"shading",
+         [](KeywordSettings& settings, const std::string& field, const py::handle& value) {
+             const auto text = value.cast<std::string>();
+             if (text != "sample" && text != "pixel")
+                 throw InputError("options", field, "sample or pixel", "'" + text + "'");
+             settings.shades_pixels = text == "pixel";
+         }},
+        {"interpolate",
+         [](KeywordSettings& settings, const std::string& field, const py::handle& value) {
+             const auto where = named<rasterizer::Interpolation>(field, value);
+             if (where == rasterizer::Interpolation::sample)
+                 throw InputError("options", field, "centre or centroid", "'sample'");
+             settings.interpolate = where;
+         }},
         {"origin", [](KeywordSettings& settings, const std::string& field,
                       const py::handle& value) { settings.origin = named<pipeline::Origin>(field, value); }},
     };
@@ -78,7 +101,7 @@ const std::map<std::string, Setter>& setters() {
 
 }  // namespace
 
-RenderOptions options_of(const py::kwargs& keywords, DeviceProfile& profile) {
+Settings settings_of(const py::kwargs& keywords, DeviceProfile& profile) {
     KeywordSettings settings;
     for (const auto& [key, value] : keywords) {
         const auto name = key.cast<std::string>();
@@ -96,7 +119,11 @@ RenderOptions options_of(const py::kwargs& keywords, DeviceProfile& profile) {
         }
     }
     if (settings.origin) profile = with_origin(profile, *settings.origin);
-    return settings.options;
+    if (settings.interpolate && !settings.shades_pixels)
+        throw InputError("options", "interpolate", "shading='pixel' with it", "none");
+    if (settings.shades_pixels)
+        settings.options.raster.interpolation = settings.interpolate.value_or(rasterizer::Interpolation::centre);
+    return {settings.options, settings.sampling};
 }
 
 }  // namespace strata::python

@@ -8,21 +8,16 @@ namespace strata::python {
 
 namespace {
 
-// Calls the library with the interpreter lock released. The result is shared, so arrays can refer to its memory.
-template <class Work>
-auto unlocked(const Work& work) {
-    py::gil_scoped_release without_lock;
-    return std::make_shared<decltype(work())>(work());
-}
-
 struct Asked {
     Algorithm algorithm;
     DeviceProfile profile;
-    RenderOptions options;
+    Settings settings;
+    const RenderOptions& options = settings.options;
+    const Multisampling& sampling = settings.sampling;
     Asked(const std::string& algorithm_name, const std::string& profile_name, const py::kwargs& keywords)
         : algorithm{strata::algorithm(algorithm_name)},
           profile{strata::profile(profile_name)},
-          options{options_of(keywords, profile)} {}
+          settings{settings_of(keywords, profile)} {}
 };
 
 py::dict audit_of(const AuditResult& audit) {
@@ -71,7 +66,7 @@ void bind_rendering(py::module_& module) {
     module.def("_render", [](const Scene& scene, const std::string& algorithm, const std::string& profile,
                              const py::kwargs& keywords) {
         const Asked asked{algorithm, profile, keywords};
-        return unlocked([&] { return render(scene, asked.algorithm, asked.profile, asked.options); });
+        return unlocked([&] { return render(scene, asked.algorithm, asked.profile, asked.options, asked.sampling); });
     });
 }
 
@@ -79,7 +74,8 @@ void bind_layers(py::module_& module) {
     module.def("_layers", [](const Scene& scene, const std::string& algorithm, const std::string& profile,
                              const py::kwargs& keywords) {
         const Asked asked{algorithm, profile, keywords};
-        const auto found = unlocked([&] { return layers(scene, asked.algorithm, asked.profile, asked.options); });
+        const auto found =
+            unlocked([&] { return layers(scene, asked.algorithm, asked.profile, asked.options, asked.sampling); });
         py::list all;
         for (const Layer& layer : *found)
             all.append(
@@ -89,7 +85,8 @@ void bind_layers(py::module_& module) {
     module.def("_passes", [](const Scene& scene, const std::string& algorithm, const std::string& profile,
                              const py::kwargs& keywords) {
         const Asked asked{algorithm, profile, keywords};
-        const auto found = unlocked([&] { return passes(scene, asked.algorithm, asked.profile, asked.options); });
+        const auto found =
+            unlocked([&] { return passes(scene, asked.algorithm, asked.profile, asked.options, asked.sampling); });
         py::list all;
         for (const oracle::PassReport& pass : *found) {
             py::dict targets, one;
@@ -112,10 +109,17 @@ void bind_layers(py::module_& module) {
     });
 }
 
+// Fragments and histories are of one sample.
+void expect_one_sample(const Asked& asked) {
+    if (asked.sampling.samples != 1)
+        throw InputError("options", "samples", "1 for fragments and histories", std::to_string(asked.sampling.samples));
+}
+
 void bind_fragments(py::module_& module) {
     module.def("_fragments", [](const Scene& scene, const std::string& algorithm, const std::string& profile,
                                 const py::kwargs& keywords) {
         const Asked asked{algorithm, profile, keywords};
+        expect_one_sample(asked);
         const auto all = unlocked([&] { return fragments(scene, asked.algorithm, asked.profile, asked.options); });
         const auto count = static_cast<py::ssize_t>(all->size());
         constexpr py::ssize_t stride = sizeof(CapturedFragment);
@@ -143,6 +147,7 @@ void bind_history(py::module_& module) {
     module.def("_explain", [](const Scene& scene, int x, int y, const std::string& algorithm,
                               const std::string& profile, const py::kwargs& keywords) {
         const Asked asked{algorithm, profile, keywords};
+        expect_one_sample(asked);
         py::gil_scoped_release without_lock;
         return explain(scene, x, y, asked.algorithm, asked.profile, asked.options);
     });
@@ -200,6 +205,28 @@ void bind_compare(py::module_& module) {
              py::kw_only(), py::arg("color") = 0, py::arg("depth") = 0, py::arg("coverage") = 0, py::arg("pixels") = 0);
 }
 
+void bind_judgement(py::module_& module) {
+    py::class_<Judgement>(module, "Judgement",
+                          "Whether a picture of a scene is right, apart from formats and rounding.")
+        .def_readonly("is_right", &Judgement::is_right)
+        .def_readonly("is_undecided", &Judgement::is_undecided)
+        .def_readonly("sentence", &Judgement::sentence)
+        .def_readonly("mistakes", &Judgement::mistakes)
+        .def_readonly("forgotten", &Judgement::forgotten)
+        .def_readonly("leads", &Judgement::leads)
+        .def_readonly("text", &Judgement::text)
+        .def_readonly("json_text", &Judgement::json)
+        .def("__bool__", [](const Judgement& j) { return j.is_right; })
+        .def("__repr__", [](const Judgement& j) { return "<strata.Judgement " + j.sentence + ">"; });
+    module.def("_judge", [](const Scene& scene, const Picture& candidate, const std::string& profile_name,
+                            const py::kwargs& keywords) {
+        DeviceProfile profile = strata::profile(profile_name);
+        const Settings settings = settings_of(keywords, profile);
+        py::gil_scoped_release without_lock;
+        return judge(scene, candidate, profile, settings.options, settings.sampling);
+    });
+}
+
 void bind_diagnosis(py::module_& module) {
     py::class_<Diagnosed>(module, "Diagnosis", "Which known mistake made a picture.")
         .def_property_readonly("is_right", &Diagnosed::is_right)
@@ -213,7 +240,7 @@ void bind_diagnosis(py::module_& module) {
                                const std::string& profile, const Tolerances& tolerances, const py::kwargs& keywords) {
         const Asked asked{algorithm, profile, keywords};
         py::gil_scoped_release without_lock;
-        return diagnose(scene, candidate, asked.algorithm, asked.profile, asked.options, tolerances);
+        return diagnose(scene, candidate, asked.algorithm, asked.profile, asked.options, tolerances, asked.sampling);
     });
 }
 
@@ -221,6 +248,7 @@ void bind_diagnosis(py::module_& module) {
 
 void bind_results(py::module_& module) {
     bind_compare(module);
+    bind_judgement(module);
     bind_diagnosis(module);
     bind_rendering(module);
     bind_layers(module);

@@ -6,24 +6,24 @@
 
 Arrays have the stored codes: uint8 of 8-bit colours, float16 and float32 of float targets, uint16 and uint32 of D16 and D24. They are read-only;
 those of 32-bit channels share the library's memory. Options of the frame (width, height, depth, color_format, alpha,
-background, max_passes, depth_path, ...) are keywords with the names and values of the command `strata`; background is premultiplied, origin
-("upper_left", "lower_left") is the corner at which the device's memory begins. Rows always begin at the top.
+background, max_passes, depth_path, samples, shading, ...) are keywords with the names and values of the command `strata`; background is
+premultiplied, origin ("upper_left", "lower_left") is the corner at which the device's memory begins. Rows always begin at the top.
 """
 from __future__ import annotations
 
 import json
 import os
-from typing import Any, NamedTuple, Optional, Sequence, Union
+from typing import Any, Callable, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _strata
-from ._strata import (Comparison, Diagnosis, FileError, History, InputError, Picture, Refused, Rendering, Tolerances, __version__, algorithms,
+from ._strata import (Comparison, Diagnosis, FileError, History, InputError, Judgement, Picture, Refused, Rendering, Tolerances, __version__, algorithms,
                       profiles, read)
 
-__all__ = ["Comparison", "Diagnosis", "FileError", "History", "InputError", "Layer", "Picture", "Refused", "Rendering", "Scene", "Tolerances",
-           "__version__", "algorithms", "assert_matches", "compare", "diagnose", "explain", "fragments", "history_json", "layers", "passes", "picture",
+__all__ = ["Comparison", "Diagnosis", "FileError", "History", "InputError", "Judgement", "Layer", "Picture", "Refused", "Region", "Rendering", "Scene", "Tolerances",
+           "__version__", "algorithms", "assert_matches", "compare", "diagnose", "explain", "fragments", "history_json", "judge", "layers", "passes", "picture",
            "profiles", "read", "render"]
 
 Array = npt.NDArray[Any]
@@ -37,7 +37,7 @@ class Scene(_strata.Scene):
     def add(self, positions: npt.ArrayLike, *, colors: Optional[npt.ArrayLike] = None, indices: Optional[npt.ArrayLike] = None,
             color: Sequence[float] = (1, 1, 1, 1), transparent: bool = True, double_sided: bool = True,
             model: Optional[npt.ArrayLike] = None, name: str = "") -> "Scene":
-        """Positions are (vertices, 3) of float32 and colors (vertices, 4), straight; indices three per triangle; model a 4 x 4 matrix."""
+        """Positions are (vertices, 3) and colors (vertices, 4), straight, as binary32; indices three per triangle; model a 4 x 4 matrix."""
         by_columns = None if model is None else np.asarray(model, dtype=np.float64).reshape(4, 4).T.ravel().tolist()
         self._add(_floats("positions", positions), None if colors is None else _floats("colors", colors),
                   None if indices is None else _indices(indices), list(color), transparent, double_sided, by_columns, name)
@@ -51,11 +51,13 @@ class Layer(NamedTuple):
 
 
 def _floats(field: str, values: npt.ArrayLike) -> npt.NDArray[np.float32]:
-    if isinstance(values, np.ndarray):
-        if values.dtype != np.float32:
-            raise InputError(f"triangles: {field}: expected float32, found {values.dtype}")
-        return values
-    return np.asarray(values, dtype=np.float32)
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiu":
+        raise InputError(f"triangles: {field}: expected numbers, found {array.dtype}")
+    array = array.astype(np.float32, copy=False)
+    # Read in place if the rows are contiguous and in order.
+    is_in_order = array.ndim == 2 and array.strides[1] == 4 and (array.shape[0] < 2 or array.strides[0] >= 4 * array.shape[1])
+    return array if is_in_order else np.ascontiguousarray(array)
 
 
 def _indices(values: npt.ArrayLike) -> npt.NDArray[np.uint32]:
@@ -65,8 +67,25 @@ def _indices(values: npt.ArrayLike) -> npt.NDArray[np.uint32]:
     return np.ascontiguousarray(array.ravel(), dtype=np.uint32)
 
 
-def render(scene: _strata.Scene, algorithm: str = "dual", *, profile: str = "ideal", **options: Any) -> Rendering:
-    """Renders the picture. A Rendering that is_refused raises Refused when one of its arrays is accessed."""
+class Region(NamedTuple):
+    """The whole frame, as an own algorithm gets it."""
+    width: int
+    height: int
+    # pixel, primitive, code, z, color: the transparent fragments in front of the opaque surfaces, in the order of submission.
+    fragments: dict[str, Array]
+    behind: Array  # (height, width, 4): the opaque surfaces over the background, premultiplied
+
+
+OwnAlgorithm = Callable[[Region], npt.ArrayLike]
+
+
+def render(scene: _strata.Scene, algorithm: Union[str, OwnAlgorithm] = "dual", *, profile: str = "ideal", **options: Any) -> Rendering:
+    """Renders the picture. A Rendering that is_refused raises Refused when one of its arrays is accessed. `algorithm` is a name, or a function
+    that is called with the frame as a Region, once a sample, and returns its colours: (height, width, 4), premultiplied."""
+    if not isinstance(algorithm, str):
+        own = algorithm
+        name = getattr(own, "__name__", "own")
+        return _strata._render_own(scene, lambda *parts: np.asarray(own(Region(*parts)), dtype=np.float32), name, profile, **options)
     return _strata._render(scene, algorithm, profile, **options)
 
 
@@ -116,6 +135,12 @@ def compare(reference: Comparable, candidate: Comparable, *, color: int = 0, dep
     """Compares exactly, unless codes or pixels are tolerated: text, json_text, heat and distance describe the difference."""
     tolerances = Tolerances(color=color, depth=depth, coverage=coverage)
     return _strata._compare(_picture_of(reference), _picture_of(candidate), tolerances)
+
+
+def judge(scene: _strata.Scene, candidate: Comparable, *, profile: str = "geforce8", **options: Any) -> Judgement:
+    """Whether a picture of the scene is right, whatever its formats and rounding: is_right, sentence, mistakes, forgotten, leads, text. The picture
+    has the size of the candidate; of one with several samples per pixel, `samples` is their number."""
+    return _strata._judge(scene, _picture_of(candidate), profile, **options)
 
 
 def diagnose(scene: _strata.Scene, candidate: Comparable, algorithm: str = "dual", *, profile: str = "ideal",

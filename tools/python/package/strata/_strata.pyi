@@ -1,4 +1,4 @@
-from typing import Any, Final, Optional, Sequence, Tuple
+from typing import Any, Callable, Final, Optional, Sequence, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -64,10 +64,23 @@ class Diagnosis:
     text: Final[str]
     json_text: Final[str]
 
+class Judgement:
+    is_right: Final[bool]
+    is_undecided: Final[bool]
+    sentence: Final[str]
+    mistakes: Final[list[str]]
+    forgotten: Final[list[str]]
+    leads: Final[list[str]]
+    text: Final[str]
+    json_text: Final[str]
+    def __bool__(self) -> bool: ...
+
 def profiles() -> list[str]: ...
 def algorithms() -> list[str]: ...
 def read(path: str, algorithm: str = ...) -> Picture: ...
 def _render(scene: Scene, algorithm: str, profile: str, **options: Any) -> Rendering: ...
+def _render_own(scene: Scene, body: Callable[..., npt.NDArray[np.float32]], name: str, profile: str, **options: Any) -> Rendering: ...
+def _judge(scene: Scene, candidate: Picture, profile: str, **options: Any) -> Judgement: ...
 def _layers(scene: Scene, algorithm: str, profile: str,
             **options: Any) -> list[Tuple[npt.NDArray[Any], npt.NDArray[Any], bool]]: ...
 def _passes(scene: Scene, algorithm: str, profile: str, **options: Any) -> list[dict[str, Any]]: ...
