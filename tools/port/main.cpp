@@ -14,7 +14,7 @@ namespace strata::port {
 namespace {
 
 struct Options {
-    std::string pack, output, driver = "llvmpipe", mistakes;
+    std::string pack, output, driver = "llvmpipe", mistakes, origin = "upper-left";
     std::vector<std::string> algorithms;
     int threads = 2, max_passes = 200, samples = 1, sample = -1;
     std::string interpolation = "sample";
@@ -63,6 +63,7 @@ int run(Options options) {
     const Pack pack = read_pack(options.pack);
     const std::vector<std::string> algorithms = chosen(options, pack);
     PortSettings settings = settings_with(options.mistakes);
+    if (options.origin == "lower-left") settings.origin = GL_LOWER_LEFT;
     take_sampling(pack.sampling, options, settings.sampled.loads);
     const bool has_targets = options.samples == 1 || options.sample >= 0 || pack.sampling.samples > 1;
     const HeadlessContext context(options.driver, options.threads);
@@ -113,6 +114,10 @@ void add_options(CLI::App& app, Options& o) {
         ->check(CLI::IsMember({"sample", "centre", "centroid"}));
     app.add_option("--sample", o.sample, "what is written is this sample (default: the resolved picture)")
         ->check(CLI::Range(0, 31));
+    app.add_option("--origin", o.origin,
+                   "the corner at which the window's memory begins; rows are written in memory's order (default "
+                   "upper-left)")
+        ->check(CLI::IsMember({"upper-left", "lower-left"}));
     app.add_option("--mistake", o.mistakes, "be wrong: names with commas between");
     app.add_flag("--mistakes", o.list, "list them; with --samples those of several samples");
     app.add_option("--max-passes", o.max_passes, "geometry passes at most (default 200)")->check(CLI::PositiveNumber);
