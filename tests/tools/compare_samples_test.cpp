@@ -50,6 +50,23 @@ TEST_CASE("a resolved picture is judged by other sample positions of the profile
     CHECK(nlohmann::json::parse(found.out)["rules"] == "the sample positions \"nv20\"");
 }
 
+TEST_CASE("a resolved picture is right with the origin at either corner and with either shading if no option says so") {
+    const Folder folder;
+    for (const std::string samples : {"2", "4", "8"})
+        for (const std::string more :
+             {"--origin lower-left", "--origin lower-left --shading pixel", "--shading pixel"}) {
+            const std::string options = " --size 32x24 --profile ideal --color-format rgba8 --samples " + samples;
+            REQUIRE(shell(folder,
+                          "strata render " + scene + options + " --algorithm dual --no-audit -q -o port.png " + more)
+                        .status == 0);
+            const CommandResult found = shell(folder, "strata compare " + scene + " port.png" + options);
+            INFO(samples << ' ' << more << ": " << found.out << found.err);
+            CHECK(found.status == 0);
+            CHECK(found.out.find("\n  by the rules of profile ideal with " + more +
+                                 "; by those given it would be wrong ") != std::string::npos);
+        }
+}
+
 TEST_CASE("with pixel shading the values of a pixel's centre or centroid are those that count") {
     const Folder folder;
     for (const std::string place : {"centre", "centroid"}) {

@@ -1,9 +1,10 @@
-// tools/library/diagnose.cpp - finds the mistake in a picture of a scene, in one call.
+// tools/library/diagnose.cpp - the verdict on a picture of a scene, and the mistake in it, in one call each.
 #include "strata/diagnose.h"
 
 #include <algorithm>
 
 #include "rasterizer/base/input_error.h"
+#include "tools/oracle/judge/diagnose_picture.h"
 #include "tools/oracle/mistakes/catalogue.h"
 #include "tools/oracle/mistakes/diagnosis_report.h"
 
@@ -20,15 +21,21 @@ std::vector<std::string> names_of_all(const std::vector<const oracle::Mistake*>&
 
 }  // namespace
 
+bool Diagnosed::is_right() const noexcept {
+    using enum oracle::Verdict;
+    const oracle::Verdict verdict = diagnosis.verdict;
+    return verdict == right || verdict == other_options || verdict == right_structure;
+}
+
 std::string Diagnosed::verdict() const { return std::string{oracle::name(diagnosis.verdict)}; }
 
 std::vector<std::string> Diagnosed::mistakes() const {
-    if (diagnosis.verdict == oracle::Verdict::unknown_mistake) return {};
+    if (is_right() || diagnosis.verdict == oracle::Verdict::unknown_mistake) return {};
     return names_of_all(diagnosis.findings.at(0).mistakes);
 }
 
 std::vector<std::string> Diagnosed::alike() const {
-    if (diagnosis.verdict == oracle::Verdict::unknown_mistake) return {};
+    if (is_right() || diagnosis.verdict == oracle::Verdict::unknown_mistake) return {};
     return names_of_all(diagnosis.findings.at(0).alike);
 }
 
@@ -42,14 +49,24 @@ Diagnosed diagnose(const Scene& scene, const Picture& candidate, const Algorithm
     RenderOptions of_candidate = options;
     of_candidate.width = candidate.targets[0].width;
     of_candidate.height = candidate.targets[0].height;
-    const bool has_depth = std::ranges::find(candidate.targets, oracle::Meaning::depth, &oracle::Target::meaning) !=
-                           candidate.targets.end();
     const View view = scene.view(of_candidate.width, of_candidate.height);
-    const oracle::MistakeRenderer mistake_renderer{{scene.list(), view, profile, of_candidate, sampling},
-                                                   algorithm,
-                                                   has_depth ? oracle::Depths::made : oracle::Depths::left_out};
-    const oracle::MistakeImages mistake_images{mistake_renderer};
-    return {mistake_images.diagnose(candidate, tolerances), compare(mistake_renderer.right(), candidate, tolerances)};
+    auto found =
+        oracle::diagnose_picture({.input = {scene.list(), view, profile, of_candidate, sampling, scene.space()},
+                                  .algorithm = algorithm,
+                                  .candidate = candidate,
+                                  .tolerances = tolerances});
+    return {std::move(found.found), std::move(found.comparison), std::move(found.options)};
+}
+
+Judgement judge(const Scene& scene, const Picture& candidate, const DeviceProfile& profile,
+                const RenderOptions& options, const Multisampling& sampling) {
+    const auto colors = std::ranges::find(candidate.targets, oracle::Meaning::color, &oracle::Target::meaning);
+    if (colors == candidate.targets.end()) throw InputError("candidate", "targets", "colours", "none");
+    RenderOptions of_candidate = options;
+    of_candidate.width = colors->width;
+    of_candidate.height = colors->height;
+    const View view = scene.view(of_candidate.width, of_candidate.height);
+    return oracle::judge({scene.list(), view, profile, of_candidate, sampling, scene.space()}, {*colors});
 }
 
 }  // namespace v0_1

@@ -66,7 +66,7 @@ std::vector<std::uint32_t> indices_of(const Fields& its, const Triangles& triang
 }  // namespace
 
 Scene::Scene(const std::string& spec, const SceneOptions& options)
-    : scene_{scenes::load_scene(spec, options)}, is_loaded_{true} {}
+    : scene_{scenes::load_scene(spec, options)}, is_loaded_{true}, space_{options.color_space} {}
 
 Scene& Scene::add(const Triangles& triangles) {
     const Fields its{triangles};

@@ -38,6 +38,7 @@ struct Target {
     std::vector<std::uint32_t> codes{};
     bool is_grey = false;  // the first of one or two channels is used for red, green and blue; a second one is alpha
     AlphaForm alpha_form = AlphaForm::unknown;
+    bool holds_encoded = false;  // a file for display (PNG, JPEG, TGA ...), whose values are encoded for sRGB
 
     [[nodiscard]] std::size_t pixels() const noexcept {
         return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

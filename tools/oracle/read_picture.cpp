@@ -129,7 +129,8 @@ Picture read_by(const char* reader, const std::string& path) {
                   .channels = stored.channels,
                   .codes = std::move(stored.codes),
                   .is_grey = stored.channels < 3,
-                  .alpha_form = AlphaForm::straight};
+                  .alpha_form = AlphaForm::straight,
+                  .holds_encoded = !stored.is_float};
     return {path, {std::move(target)}};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "peeling/multisampling.h"
 #include "peeling/render_options.h"
+#include "pipeline/vertices/draw_list.h"
 
 namespace strata::pipeline {
 struct DeviceProfile;
@@ -16,6 +17,7 @@ struct RunInput {
     const pipeline::DeviceProfile& profile;
     peeling::RenderOptions options;  // execution, audit and layers are set by the function that runs it
     peeling::Multisampling sampling{};
+    pipeline::ColorSpace space = pipeline::ColorSpace::encoded;  // of the scene's colours and the frame's
 };
 
 }  // namespace strata::oracle

@@ -1,5 +1,7 @@
 #include "tools/strata/compare_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -11,13 +13,14 @@
 #include "scenes/models/models.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/drawings.h"
+#include "tools/oracle/judge/forgotten.h"
+#include "tools/oracle/judge/samples_verdict.h"
 #include "tools/oracle/mistakes/suite.h"
 #include "tools/oracle/verdict/distinguish_rules.h"
 #include "tools/oracle/verdict/edits.h"
 #include "tools/oracle/verdict/picture_verdict.h"
 #include "tools/strata/compare_pages.h"
 #include "tools/strata/render/run.h"
-#include "tools/strata/samples_verdict.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -27,6 +30,13 @@ bool is_scene(const std::string& reference) {
     std::string ending = std::filesystem::path(reference).extension().string();
     std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
     return ending == ".gltf" || ending == ".glb" || ending == ".json";
+}
+
+std::string camera_in_words(const RunOptions& run) {
+    if (!run.camera.empty()) return "--camera " + run.camera;
+    if (run.takes_own_view) return "the scene's own view";
+    const Orbit orbit = run.orbit.value_or(Orbit{});
+    return fmt::format("--orbit {},{}", orbit.azimuth, orbit.elevation);
 }
 
 const oracle::Target& colors_of(const oracle::Picture& candidate) {
@@ -140,7 +150,7 @@ PlainPage page_of(const std::string& scene, const oracle::Picture& candidate,
 
 namespace {
 
-PlainPage page_of(const std::string& scene, const oracle::Picture& candidate, const SamplesVerdict& verdict) {
+PlainPage page_of(const std::string& scene, const oracle::Picture& candidate, const oracle::SamplesVerdict& verdict) {
     PlainPage page = verdict_page(scene, candidate, to_text(verdict));
     EditMap map{.width = verdict.form.target.width, .height = verdict.form.target.height};
     map.of_pixel.assign(verdict.form.target.pixels(), EditMap::right);
@@ -157,11 +167,13 @@ PlainPage page_of(const std::string& scene, const oracle::Picture& candidate, co
 // The verdict on a picture with several samples per pixel.
 int compare_resolved(const SceneQuestion& question, const Session& session, const oracle::Picture& candidate) {
     const oracle::Target& colors = colors_of(candidate);
-    const oracle::RunInput input{session.scene.list, session.view, session.profile, question.run.render,
-                                 sampling(question.run)};
-    const SamplesVerdict verdict = judge_samples(input, {colors, question.is_form_stated, question.has_alpha});
+    const oracle::RunInput input{session.scene.list,  session.view,           session.profile,
+                                 question.run.render, sampling(question.run), question.run.scene_options.color_space};
+    const oracle::SamplesVerdict verdict = judge_samples(input, {colors, question.is_form_stated, question.has_alpha});
     if (!question.report.empty()) write_page(question.report, page_of(question.run.scene, candidate, verdict));
-    print(question.json ? to_json(verdict) : with_painted_verdicts(to_text(verdict)));
+    const std::vector<std::string> forgotten = oracle::forgotten_options(input, verdict, camera_in_words(question.run));
+    print(question.json ? oracle::json_with_forgotten(to_json(verdict), forgotten)
+                        : with_painted_verdicts(oracle::with_forgotten(to_text(verdict), forgotten)));
     return verdict.found.is_right() ? 0 : 1;
 }
 
@@ -172,16 +184,19 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
     const Session session = open_at_size(question, colors);
     if (question.run.samples > 1) return compare_resolved(question, session, candidate);
     const pipeline::DrawList& list = session.scene.list;
+    const oracle::RunInput input{
+        list, session.view, session.profile, question.run.render, {}, question.run.scene_options.color_space};
     oracle::verdict::PictureVerdict verdict = oracle::verdict::judge_picture(
-        {list, session.view, session.profile, question.run.render},
-        {.colors = colors,
-         .is_form_stated = question.is_form_stated,
-         .has_alpha = question.has_alpha,
-         .is_frame_linear = question.run.scene_options.color_space == pipeline::ColorSpace::linear,
-         .algorithm = question.algorithm.empty() ? nullptr : question.run.algorithms[0]});
+        input, {.colors = colors,
+                .is_form_stated = question.is_form_stated,
+                .has_alpha = question.has_alpha,
+                .is_frame_linear = question.run.scene_options.color_space == pipeline::ColorSpace::linear,
+                .algorithm = question.algorithm.empty() ? nullptr : question.run.algorithms[0]});
     verdict.found.distinguishing_command = distinguishing_command(verdict.found);
     if (!question.report.empty()) write_page(question.report, page_of(question.run.scene, candidate, verdict, list));
-    print(question.json ? to_json(verdict, list, session.profile.name) : with_painted_verdicts(to_text(verdict, list)));
+    const std::vector<std::string> forgotten = oracle::forgotten_options(input, verdict, camera_in_words(question.run));
+    print(question.json ? oracle::json_with_forgotten(to_json(verdict, list, session.profile.name), forgotten)
+                        : with_painted_verdicts(oracle::with_forgotten(to_text(verdict, list), forgotten)));
     return verdict.is_right() ? 0 : 1;
 }
 

@@ -22,6 +22,8 @@ struct SceneQuestion {
     bool has_alpha = true;        // alpha is compared, too
 };
 
+// "--orbit 30,20"
+[[nodiscard]] std::string camera_in_words(const RunOptions& run);
 // The candidate's colour target. Throws InputError if it has none.
 [[nodiscard]] const oracle::Target& colors_of(const oracle::Picture& candidate);
 // Opens the scene at the candidate's size.

@@ -52,3 +52,13 @@ TEST(MatchesReference, ForgivesWhatATolerancePermits) {
     EXPECT_THAT(small_picture(104), testing::Not(strata::MatchesReference(reference(), tolerances)));
     std::filesystem::remove_all("strata-pictures");
 }
+
+TEST(MatchesScene, AcceptsARightPictureAndSaysTheVerdictOfAWrongOne) {
+    const strata::Scene scene("planes:count=2");
+    const strata::RenderOptions frame{.width = 16, .height = 12};
+    const auto profile = strata::profile("geforce8");
+    auto picture = strata::picture_of(strata::render(scene, strata::algorithm("dual"), profile, frame).color());
+    EXPECT_TRUE(strata::matches_scene(picture, scene, profile, frame));
+    for (std::size_t i = 0; i < picture.targets[0].codes.size(); i += 5) picture.targets[0].codes[i] ^= 0x55;
+    EXPECT_NONFATAL_FAILURE(EXPECT_TRUE(strata::matches_scene(picture, scene, profile, frame)), "wrong: ");
+}

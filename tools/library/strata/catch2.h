@@ -1,4 +1,4 @@
-// strata/catch2.h - a Catch2 matcher: REQUIRE_THAT(picture, strata::MatchesReference("teapot.exr")).
+// strata/catch2.h - Catch2 matchers: REQUIRE_THAT(picture, strata::MatchesReference("teapot.exr")), and MatchesScene.
 //
 // Rule     Compares a Picture with a file, or with a picture that has a name. The message of a failure contains the
 //          kinds of differences, the first pixel of each, and the path of the written pictures (strata/compare.h).
@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "strata/compare.h"
+#include "strata/diagnose.h"
 
 namespace strata {
 inline namespace v0_1 {
@@ -37,6 +38,27 @@ class MatchesReference : public CatchMatcher {
   private:
     Reference reference_;
     Tolerances tolerances_;
+    mutable std::string message_;
+};
+
+// REQUIRE_THAT(picture, strata::MatchesScene(scene, strata::profile("geforce8"))): the verdict of judge() is "right".
+class MatchesScene : public CatchMatcher {
+  public:
+    MatchesScene(const Scene& scene, DeviceProfile profile, const RenderOptions& options = {},
+                 const Multisampling& sampling = {})
+        : scene_{&scene}, profile_{std::move(profile)}, options_{options}, sampling_{sampling} {}
+    bool match(const Picture& candidate) const override {
+        const Judgement found = judge(*scene_, candidate, profile_, options_, sampling_);
+        message_ = "is a right picture of the scene: " + found.text;
+        return found.is_right;
+    }
+    std::string describe() const override { return message_; }
+
+  private:
+    const Scene* scene_;  // must outlive the matcher
+    DeviceProfile profile_;
+    RenderOptions options_;
+    Multisampling sampling_;
     mutable std::string message_;
 };
 

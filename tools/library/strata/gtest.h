@@ -12,6 +12,7 @@
 #include <ostream>
 
 #include "strata/compare.h"
+#include "strata/diagnose.h"
 
 namespace strata {
 inline namespace v0_1 {
@@ -20,6 +21,15 @@ inline namespace v0_1 {
                                                                 const Tolerances& tolerances = {}) {
     const Checked checked = check(candidate, reference, tolerances);
     return (checked.is_accepted ? testing::AssertionSuccess() : testing::AssertionFailure()) << checked.message;
+}
+
+// EXPECT_TRUE(strata::matches_scene(picture, scene, profile)): the verdict of judge() is "right".
+[[nodiscard]] inline testing::AssertionResult matches_scene(const Picture& candidate, const Scene& scene,
+                                                            const DeviceProfile& profile,
+                                                            const RenderOptions& options = {},
+                                                            const Multisampling& sampling = {}) {
+    const Judgement found = judge(scene, candidate, profile, options, sampling);
+    return (found.is_right ? testing::AssertionSuccess() : testing::AssertionFailure()) << found.text;
 }
 
 #if __has_include(<gmock/gmock-matchers.h>)

@@ -64,6 +64,8 @@ class Scene {
 
     [[nodiscard]] const pipeline::DrawList& list() const noexcept { return scene_.list; }
     [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return scene_.warnings; }
+    // Of its colours: SceneOptions::color_space.
+    [[nodiscard]] pipeline::ColorSpace space() const noexcept { return space_; }
     // The camera for pictures of that size.
     [[nodiscard]] View view(int width, int height) const;
 
@@ -73,6 +75,7 @@ class Scene {
     };
     scenes::Scene scene_;
     bool is_loaded_ = false;
+    pipeline::ColorSpace space_ = pipeline::ColorSpace::encoded;
     std::optional<View> own_view_;
     std::optional<LookAt> look_at_;
     std::optional<Orbit> orbit_;

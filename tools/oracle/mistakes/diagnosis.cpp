@@ -8,6 +8,7 @@
 #include "rasterizer/base/parallel.h"
 #include "tools/oracle/mistakes/catalogue.h"
 #include "tools/oracle/pairs.h"
+#include "tools/oracle/stored_like.h"
 
 namespace strata::oracle {
 
@@ -102,12 +103,17 @@ bool is_evidence(std::span<const Mistake* const> mistakes, std::uint64_t explain
 struct MistakeImages::Evidence {
     const Picture& candidate;
     const Tolerances& tolerances;
-    const Agreement& right_agrees;
-    std::vector<Agreement> agrees;  // of each suspect that changes the image
+    pipeline::ColorSpace space;  // of the images
+    Agreement right_agrees{};
+    std::vector<Agreement> agrees{};  // of each suspect that changes the image
 
+    [[nodiscard]] Agreement agreement_of(const Picture& picture) const {
+        return agreement(stored_like(picture, candidate, space), candidate, tolerances);
+    }
     [[nodiscard]] Finding of(std::vector<const Mistake*> mistakes, const Picture& picture) const {
-        return finding(std::move(mistakes), agreement(picture, candidate, tolerances),
-                       agreement(picture, candidate, tolerances, Forgiven::one_code), right_agrees);
+        const Picture stored = stored_like(picture, candidate, space);
+        return finding(std::move(mistakes), agreement(stored, candidate, tolerances),
+                       agreement(stored, candidate, tolerances, Forgiven::one_code), right_agrees);
     }
 };
 
@@ -148,11 +154,11 @@ MistakeImages::Judgement MistakeImages::judge(std::span<const Mistake* const> mi
                                                 : nullptr;
     if (both) picture = &*both;
     if (picture == nullptr) return {};
-    const Agreement right_agrees = agreement(mistake_renderer_.right(), candidate, tolerances);
-    const Evidence evidence{candidate, tolerances, right_agrees, {}};
+    Evidence evidence{candidate, tolerances, mistake_renderer_.space()};
+    evidence.right_agrees = evidence.agreement_of(mistake_renderer_.right());
     const Finding right = evidence.of({}, mistake_renderer_.right());
     Judgement judged{.finding = evidence.of(made, *picture)};
-    const std::uint64_t pixels = right_agrees.size();
+    const std::uint64_t pixels = evidence.right_agrees.size();
     judged.fits = judged.finding.agreeing == pixels || (right.nearly != pixels && judged.finding.nearly == pixels);
     if (passes == nullptr || !judged.fits) return judged;
     const auto right_passes = mistake_renderer_.compare_passes({}, *passes);
@@ -195,14 +201,16 @@ Verdict verdict_of(const Diagnosis& d) {
 Diagnosis MistakeImages::diagnose(const Picture& candidate, const Tolerances& tolerances, const ShowProgress& progress,
                                   const std::vector<PassPicture>* passes) const {
     Diagnosis result{.is_blank = is_blank(candidate)};
-    const Agreement right_agrees = agreement(mistake_renderer_.right(), candidate, tolerances);
+    Evidence evidence{candidate, tolerances, mistake_renderer_.space()};
+    evidence.right_agrees = evidence.agreement_of(mistake_renderer_.right());
+    evidence.agrees.resize(suspects_.size());
+    const Agreement& right_agrees = evidence.right_agrees;
     result.pixels = right_agrees.size();
     result.differing = static_cast<std::uint64_t>(std::ranges::count(right_agrees, false));
     if (!edges_.empty()) {
         result.at_edges = 0;
         for (std::size_t i = 0; i < edges_.size(); ++i) *result.at_edges += edges_[i] && !right_agrees[i] ? 1 : 0;
     }
-    Evidence evidence{candidate, tolerances, right_agrees, std::vector<Agreement>(suspects_.size())};
     result.findings.push_back(evidence.of({}, mistake_renderer_.right()));
     const std::uint64_t right_nearly = result.findings.front().nearly;
     result.differing_far = result.pixels - right_nearly;
@@ -210,7 +218,7 @@ Diagnosis MistakeImages::diagnose(const Picture& candidate, const Tolerances& to
         const Suspect& suspect = suspects_[i];
         ++(suspect.shows ? result.tried : suspect.picture ? result.hidden : result.impossible);
         if (!suspect.shows || suspect.like != i) continue;
-        evidence.agrees[i] = agreement(*suspect.picture, candidate, tolerances);
+        evidence.agrees[i] = evidence.agreement_of(*suspect.picture);
         result.findings.push_back(evidence.of({suspect.mistake}, *suspect.picture));
         for (std::size_t j = i + 1; j < suspects_.size(); ++j)
             if (suspects_[j].shows && suspects_[j].like == i)
@@ -334,9 +342,9 @@ struct TwoSuspects {
 
 }  // namespace
 
-// True if the second mistake undoes the first almost everywhere: no port has such a pair.
+// True if the second mistake undoes the first almost everywhere, but for rounding: no port has such a pair.
 bool MistakeImages::cancels(std::size_t first, std::size_t second, const Picture& both) const {
-    const Agreement is_right = agreement(mistake_renderer_.right(), both, {});
+    const Agreement is_right = agreement(mistake_renderer_.right(), both, {}, Forgiven::one_code);
     std::size_t shown = 0, undone = 0;
     for (std::size_t i = 0; i < is_right.size(); ++i) {
         if (suspects_[first].unchanged[i] || suspects_[second].unchanged[i]) continue;
@@ -378,8 +386,16 @@ void MistakeImages::try_pairs(const Evidence& evidence, const ShowProgress& prog
         if (picture && !cancels(pairs[i].first, pairs[i].second, *picture))
             found[i] = evidence.of({both[0], both[1]}, *picture);
     });
+    // A pair that explains no more than one of its two is no finding.
+    const auto of_one = [&](const Mistake* mistake) {
+        const auto single = std::ranges::find_if(result.findings, [&](const Finding& f) {
+            return f.mistakes.size() == 1 && (f.mistakes[0] == mistake || std::ranges::count(f.alike, mistake) > 0);
+        });
+        return single == result.findings.end() ? 0 : single->agreeing;
+    };
     for (std::optional<Finding>& one : found)
-        if (one) result.findings.push_back(*std::move(one));
+        if (one && one->agreeing > std::max(of_one(one->mistakes[0]), of_one(one->mistakes[1])))
+            result.findings.push_back(*std::move(one));
     result.pairs_tried = static_cast<int>(pairs.size());
 }
 

@@ -24,6 +24,12 @@ std::string percent(std::uint64_t part, std::uint64_t all) {
     return fmt::format("{:.1f}", std::min(share, 99.9));
 }
 
+// ", 2 of them by more than one code"; "" if all do, or none does.
+std::string far_of(const Diagnosis& d) {
+    if (d.differing_far == 0) return ", all of them by one code";
+    return d.differing_far == d.differing ? "" : fmt::format(", {} of them by more than one code", d.differing_far);
+}
+
 std::string first_line(const Diagnosis& d) {
     const Finding& best = d.findings.front();
     if (!d.structure.empty()) return d.structure;
@@ -36,9 +42,10 @@ std::string first_line(const Diagnosis& d) {
                "written, and it does not show why\n";
     if (d.verdict == Verdict::unknown_mistake)
         return fmt::format(
-            "none that is known: {} of {} pixels differ from the right picture, and no known mistake, nor two of them, "
+            "none that is known: {} of {} pixels differ from the right picture{}, and no known mistake, nor two of "
+            "them, "
             "explains them all\n",
-            d.differing, d.pixels);
+            d.differing, d.pixels, far_of(d));
     if (d.verdict == Verdict::other_options)
         return fmt::format("right under other options: every pixel is{} that of: {}\n",
                            d.is_nearly ? ", within one code," : "", description_of(best.mistakes));
@@ -134,6 +141,8 @@ std::string to_text(const Diagnosis& d, const Comparison& comparison) {
     if (!best.mistakes.empty()) text += line_of(best.passes, "that machine");
     text += line_of(d.right_passes, "a correct implementation");
     text += hint_of_tolerance(d, comparison) + hint_of_limit(d);
+    for (const std::string& sentence : d.forgotten) text += fmt::format("  {}\n", sentence);
+    for (const std::string& lead : d.leads) text += fmt::format("  lead: {}\n", lead);
     if (d.is_nearly) text += fmt::format("  to the last code: {} of the {} that differ\n", best.explained, d.differing);
     for (const Mistake* mistake : best.alike)
         text += fmt::format("  the same picture of this scene{}: {} ({})\n", best.passes ? ", and passes alike" : "",
@@ -166,6 +175,8 @@ std::string to_json(const Diagnosis& d, const Comparison& comparison) {
                           {"passes_contradict", d.passes_contradict},
                           {"right_passes", as_json(d.right_passes)},
                           {"structure", nullptr},
+                          {"forgotten", d.forgotten},
+                          {"leads", d.leads},
                           {"distinguishing_scene", nullptr},
                           {"findings", ordered_json::array()}};
     if (d.at_edges) document["differing_at_edges"] = *d.at_edges;

@@ -1,11 +1,6 @@
 #include "tools/oracle/verdict/other_profile.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <map>
 #include <mutex>
-#include <utility>
 
 #include "pipeline/device/check.h"
 #include "tools/oracle/verdict/match.h"
@@ -36,25 +31,11 @@ std::optional<CheckedAccount> narrow_account(const SceneFragments& scene, const 
 // So few wrong pixels may all be at edges, where the other profile explains some and another rasterizer the others.
 constexpr std::size_t few_wrong = 16;
 
-// The square of a grid with the largest number of wrong pixels.
-rasterizer::Rect most_wrong(const std::vector<std::uint32_t>& wrong_pixels, int width) {
-    const int side = wrong_pixels.size() <= few_wrong ? 8 : 32;
-    std::map<std::pair<int, int>, std::size_t> count;
-    for (const std::uint32_t pixel : wrong_pixels) {
-        const int at = static_cast<int>(pixel);
-        ++count[{at / width / side, at % width / side}];
-    }
-    const auto most = std::ranges::max_element(count, {}, [](const auto& square) { return square.second; });
-    const auto [y, x] = most->first;
-    return {x * side, y * side, (x + 1) * side, (y + 1) * side};
-}
-
 // True if a definite hypothesis explains the rectangle. A hypothesis that fails there fails for the whole picture, so
 // the rest need not be rendered.
 bool may_be_right(const RunInput& input, std::uint64_t bytes, const Colors& candidate, const rasterizer::Rect& rect) {
-    peeling::RenderOptions options = input.options;
-    options.raster.scissor = options.raster.scissor ? rasterizer::intersection(*options.raster.scissor, rect) : rect;
-    const SceneFragments part{{input.list, input.view, input.profile, options}, bytes};
+    const peeling::RenderOptions options = scissored(input.options, rect, input.profile.origin);
+    const SceneFragments part{{input.list, input.view, input.profile, options, input.sampling, input.space}, bytes};
     Sample sample{part.setting()};
     std::mutex mutex;
     part.for_each_tile([&](const TileLists& tile) {
@@ -72,47 +53,46 @@ bool may_be_right(const RunInput& input, std::uint64_t bytes, const Colors& cand
 }  // namespace
 
 std::string OtherProfile::description(const std::string& given, std::size_t wrong_pixels) const {
-    return fmt::format("  by the rules of profile {}; by those of {} it would be wrong at {} pixel{}\n", profile->name,
-                       given, wrong_pixels, wrong_pixels == 1 ? "" : "s");
+    return verdict::description(rules, given, wrong_pixels);
 }
 
-std::optional<OtherProfile> right_by_other_profile(const RunInput& input, std::uint64_t bytes, const Colors& candidate,
+std::optional<OtherProfile> right_by_rules(const RunInput& input, OtherRules rules, const Colors& candidate,
+                                           const std::vector<std::uint32_t>& wrong_pixels) {
+    constexpr std::size_t most_sampled = 2048;
+    const std::uint64_t bytes = input.options.fragment_memory;
+    OtherProfile other{.profile = std::make_unique<pipeline::DeviceProfile>(rules.profile), .fragments = nullptr};
+    other.rules = std::move(rules);
+    const RunInput by_other{input.list, input.view, *other.profile, input.options, input.sampling, input.space};
+    try {
+        if (!wrong_pixels.empty() &&
+            !may_be_right(by_other, bytes, candidate, most_wrong(wrong_pixels, candidate.width())))
+            return std::nullopt;
+        other.fragments = std::make_unique<SceneFragments>(by_other, bytes);
+    } catch (const pipeline::Refused&) {
+        return std::nullopt;
+    }
+    Sample sample = sampled(*other.fragments, candidate, most_sampled);
+    auto right = narrow_account(*other.fragments, candidate, sample);
+    if (!right && !wrong_pixels.empty() && wrong_pixels.size() <= few_wrong) {
+        other.fragments->find_coverages();
+        sample = sampled(*other.fragments, candidate, most_sampled);
+        right = narrow_account(*other.fragments, candidate, sample);
+    }
+    if (!right) return std::nullopt;
+    other.verdict = {.is_right = true,
+                     .width = other.fragments->width(),
+                     .facts = facts_of(*other.fragments, sample),
+                     .right = *std::move(right)};
+    other.verdict.alpha = check_alpha(*other.fragments, candidate, other.verdict.right.account.hypothesis);
+    other.verdict.is_right = other.verdict.alpha.state != AlphaState::wrong;
+    return other;
+}
+
+std::optional<OtherProfile> right_by_other_profile(const RunInput& input, const Colors& candidate,
                                                    const std::vector<std::uint32_t>& wrong_pixels,
                                                    std::span<const pipeline::DeviceProfile> more) {
-    constexpr std::size_t most_sampled = 2048;
-    std::vector<pipeline::DeviceProfile> all{more.begin(), more.end()};
-    const auto& built_in = pipeline::builtin_profiles();
-    all.insert(all.end(), built_in.begin(), built_in.end());
-    for (const pipeline::DeviceProfile& profile : all) {
-        if (profile.name == input.profile.name) continue;
-        OtherProfile other{
-            .profile = std::make_unique<pipeline::DeviceProfile>(with_origin(profile, input.profile.origin)),
-            .fragments = nullptr};
-        const RunInput by_other{input.list, input.view, *other.profile, input.options};
-        try {
-            if (!wrong_pixels.empty() &&
-                !may_be_right(by_other, bytes, candidate, most_wrong(wrong_pixels, candidate.width())))
-                continue;
-            other.fragments = std::make_unique<SceneFragments>(by_other, bytes);
-        } catch (const pipeline::Refused&) {
-            continue;
-        }
-        Sample sample = sampled(*other.fragments, candidate, most_sampled);
-        auto right = narrow_account(*other.fragments, candidate, sample);
-        if (!right && !wrong_pixels.empty() && wrong_pixels.size() <= few_wrong) {
-            other.fragments->find_coverages();
-            sample = sampled(*other.fragments, candidate, most_sampled);
-            right = narrow_account(*other.fragments, candidate, sample);
-        }
-        if (!right) continue;
-        other.verdict = {.is_right = true,
-                         .width = other.fragments->width(),
-                         .facts = facts_of(*other.fragments, sample),
-                         .right = *std::move(right)};
-        other.verdict.alpha = check_alpha(*other.fragments, candidate, other.verdict.right.account.hypothesis);
-        other.verdict.is_right = other.verdict.alpha.state != AlphaState::wrong;
-        return other;
-    }
+    for (OtherRules& rules : other_rules(input, more))
+        if (auto other = right_by_rules(input, std::move(rules), candidate, wrong_pixels)) return other;
     return std::nullopt;
 }
 

@@ -1,5 +1,5 @@
-// tools/oracle/verdict/other_profile.h - finds a profile under which a picture is right that is wrong under the scene's
-// own profile.
+// tools/oracle/verdict/other_profile.h - finds another profile or origin under which a picture is right that is wrong
+// under those given.
 //
 // Rule     Only definite hypotheses are used, and only if they leave at most two codes or few values possible, or the
 //          picture contains at most one code: a hypothesis with wide rounding would explain too many pictures to be
@@ -14,6 +14,7 @@
 
 #include "tools/oracle/run_input.h"
 #include "tools/oracle/verdict/fragments.h"
+#include "tools/oracle/verdict/other_rules.h"
 #include "tools/oracle/verdict/verdict.h"
 
 namespace strata::oracle::verdict {
@@ -24,15 +25,20 @@ struct OtherProfile {
     std::unique_ptr<pipeline::DeviceProfile> profile;  // `fragments` refers to it
     std::unique_ptr<SceneFragments> fragments;
     Verdict verdict{};
+    OtherRules rules{};
 
     // Returns "  by the rules of profile llvmpipe; by those of geforce8 it would be wrong at 3 pixels\n".
     [[nodiscard]] std::string description(const std::string& given, std::size_t wrong_pixels) const;
 };
 
-// The first such profile among `more` and the built-in profiles; empty if there is none, or if it cannot render the
-// scene.
-[[nodiscard]] std::optional<OtherProfile> right_by_other_profile(const RunInput& input, std::uint64_t bytes,
-                                                                 const Colors& candidate,
+// The verdict by the rules if the picture is right by them; empty if it is not, or if they cannot render the scene.
+// `wrong_pixels`: by the rules given; those are compared first.
+[[nodiscard]] std::optional<OtherProfile> right_by_rules(const RunInput& input, OtherRules rules,
+                                                         const Colors& candidate,
+                                                         const std::vector<std::uint32_t>& wrong_pixels);
+
+// The same by the first of other_rules.h.
+[[nodiscard]] std::optional<OtherProfile> right_by_other_profile(const RunInput& input, const Colors& candidate,
                                                                  const std::vector<std::uint32_t>& wrong_pixels,
                                                                  std::span<const pipeline::DeviceProfile> more = {});
 

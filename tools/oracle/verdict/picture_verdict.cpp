@@ -18,7 +18,7 @@ PictureVerdict judge_picture(const RunInput& input, const PictureQuestion& quest
     result.reading = result.formed.description();
     if (result.state() != State::wrong || result.found.alpha.state == AlphaState::wrong) return result;
     const std::vector<std::uint32_t> wrong = result.found.right.wrong_pixels;
-    if (auto other = right_by_other_profile(input, bytes, seen, wrong, question.more)) {
+    if (auto other = right_by_other_profile(input, seen, wrong, question.more)) {
         result.reading += other->description(input.profile.name, wrong.size());
         result.found = std::move(other->verdict);
         result.other_profile = std::move(other->profile);

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
+#include "scenes/numbers/srgb_encode.h"
 #include "tools/oracle/verdict/composite.h"
 #include "tools/oracle/verdict/structure.h"
 
@@ -34,7 +35,13 @@ bool is_at_edge(const ResolvedPixel& pixel) {
                                 [&](const PixelList& list) { return has_same_fragments(list, pixel.lists[0]); });
 }
 
-std::vector<ResolvedPixel> pixels_of(const Samples& samples, const Colors& candidate) {
+bool holds(const rasterizer::Rect& rect, int x, int y) {
+    return x >= rect.x0 && x < rect.x1 && y >= rect.y0 && y < rect.y1;
+}
+
+// All pixels; those that are not within have no lists, and are not compared.
+std::vector<ResolvedPixel> pixels_of(const Samples& samples, const Colors& candidate,
+                                     const std::optional<rasterizer::Rect>& within) {
     const auto width = static_cast<std::size_t>(candidate.width());
     std::vector<ResolvedPixel> pixels(width * static_cast<std::size_t>(candidate.height()));
     for (const auto& sample : samples) {
@@ -43,6 +50,7 @@ std::vector<ResolvedPixel> pixels_of(const Samples& samples, const Colors& candi
             const std::scoped_lock lock{mutex};
             for (std::size_t p = 0; p < tile.rect.area(); ++p) {
                 const PixelList list = sample->at(tile, p);
+                if (within && !holds(*within, list.x, list.y)) continue;
                 ResolvedPixel& pixel =
                     pixels[static_cast<std::size_t>(list.y) * width + static_cast<std::size_t>(list.x)];
                 pixel.fragments += list.visible.size();
@@ -75,7 +83,8 @@ class Resolve {
         : compositor_{hypothesis},
           unit_{unit_of(storage_of(candidate.code()))},
           codes_{candidate.use().is_divided ? 1 : 0.5},
-          is_float_{!has_codes(storage_of(candidate.code()))} {}
+          is_float_{!has_codes(storage_of(candidate.code()))},
+          is_encoded_{candidate.use().is_encoded} {}
 
     // The mean of the samples, before the resolve stores it.
     [[nodiscard]] std::array<Interval, 3> mean(const std::vector<Stack>& samples) const {
@@ -91,8 +100,16 @@ class Resolve {
     }
     [[nodiscard]] bool holds(const std::array<Interval, 3>& mean, const std::array<double, 4>& value) const {
         for (std::size_t c = 0; c < 3; ++c)
-            if (!stored(mean[c]).holds(value[c])) return false;
+            if (!in_file(mean[c]).holds(value[c])) return false;
         return true;
+    }
+    // The values of a colour that the file may hold: of a linear frame the resolve's, encoded and rounded again.
+    [[nodiscard]] Interval in_file(const Interval& mean) const {
+        const Interval kept = stored(mean);
+        if (!is_encoded_) return kept;
+        constexpr double error = 0x1p-20;  // of encode_srgb
+        const auto encoded = [](double v) { return double{scenes::encode_srgb(static_cast<float>(v))}; };
+        return stored({encoded(kept.low) - error, encoded(kept.high) + error});
     }
     // The values that the resolve may store.
     [[nodiscard]] Interval stored(const Interval& mean) const {
@@ -125,6 +142,7 @@ class Resolve {
     double unit_;
     double codes_;  // the error of a stored code: half of one, and another half if it was divided by alpha
     bool is_float_;
+    bool is_encoded_;
 };
 
 // The number of wrong pixels among the given ones, and the sum of their intervals' widths; or more than the best cost.
@@ -156,7 +174,8 @@ std::vector<Stack> stacks_of(const ResolvedPixel& pixel, const Ties& ties, Stack
 // Of the pixels with the most fragments.
 std::vector<const ResolvedPixel*> deepest(const std::vector<ResolvedPixel>& pixels, std::size_t most) {
     std::vector<const ResolvedPixel*> deep;
-    for (const ResolvedPixel& pixel : pixels) deep.push_back(&pixel);
+    for (const ResolvedPixel& pixel : pixels)
+        if (!pixel.lists.empty()) deep.push_back(&pixel);
     std::ranges::stable_sort(deep, std::ranges::greater{}, &ResolvedPixel::fragments);
     deep.resize(std::min(most, deep.size()));
     return deep;
@@ -230,6 +249,7 @@ ResolvedVerdict checked(const SamplesAccount& account, const Colors& candidate,
     ResolvedVerdict verdict{.hypothesis = account.hypothesis, .pixels = pixels.size()};
     const Resolve resolve{account.hypothesis, candidate};
     for (const ResolvedPixel& pixel : pixels) {
+        if (pixel.lists.empty()) continue;
         const bool at_edge = is_at_edge(pixel);
         verdict.at_edges += at_edge ? 1 : 0;
         const auto mean = resolve.mean(stacks_of(pixel, account.ties, maker));
@@ -249,6 +269,7 @@ AlphaChecked checked_alpha(const SamplesAccount& account, const Colors& candidat
     const Resolve resolve{account.hypothesis, candidate};
     const int width = candidate.width();
     for (const ResolvedPixel& pixel : pixels) {
+        if (pixel.lists.empty()) continue;
         Interval sum{};
         for (const Stack& stack : stacks_of(pixel, account.ties, maker)) sum = sum + reach.of(stack);
         const Interval mean = sum * Interval::of(1 / static_cast<double>(pixel.lists.size()));
@@ -273,15 +294,17 @@ namespace {
 // The hypothesis is chosen by some of the pixels, then again with some of those that it does not explain. Empty if
 // every one has more than `most_wrong` wrong pixels of the first.
 std::optional<ResolvedVerdict> judged(const Samples& samples, const Colors& candidate,
-                                      const std::vector<std::uint32_t>& first, std::size_t most_wrong) {
+                                      const std::vector<std::uint32_t>& first, std::size_t most_wrong,
+                                      const std::optional<rasterizer::Rect>& within = {}) {
     constexpr std::size_t few = 64, few_added = 32;
     constexpr int most_tries = 6;
-    const std::vector<ResolvedPixel> pixels = pixels_of(samples, candidate);
+    const std::vector<ResolvedPixel> pixels = pixels_of(samples, candidate, within);
     const std::vector<Hypothesis> all = hypotheses(storage_of(candidate.code()));
     std::vector<const ResolvedPixel*> some = deepest(pixels, few);
     const auto add_some = [&](const std::vector<std::uint32_t>& numbers) {
         const std::size_t step = numbers.size() / few_added + 1;
-        for (std::size_t k = 0; k < numbers.size(); k += step) some.push_back(&pixels[numbers[k]]);
+        for (std::size_t k = 0; k < numbers.size(); k += step)
+            if (const ResolvedPixel& pixel = pixels[numbers[k]]; !pixel.lists.empty()) some.push_back(&pixel);
     };
     add_some(first);
     StackMaker maker{samples[0]->setting()};
@@ -306,8 +329,9 @@ ResolvedVerdict judge_resolved(const Samples& samples, const Colors& candidate) 
 }
 
 std::optional<ResolvedVerdict> right_resolved(const Samples& samples, const Colors& candidate,
-                                              const std::vector<std::uint32_t>& doubtful) {
-    auto verdict = judged(samples, candidate, doubtful, 0);
+                                              const std::vector<std::uint32_t>& doubtful,
+                                              const std::optional<rasterizer::Rect>& within) {
+    auto verdict = judged(samples, candidate, doubtful, 0, within);
     if (verdict && !verdict->is_right()) verdict.reset();
     return verdict;
 }

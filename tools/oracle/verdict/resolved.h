@@ -34,8 +34,10 @@ using Samples = std::vector<std::unique_ptr<SceneFragments>>;
 
 [[nodiscard]] ResolvedVerdict judge_resolved(const Samples& samples, const Colors& candidate);
 // The same if the picture is right, in less time if it is not. `doubtful`: pixels that are compared first, by number.
+// `within`: the part of the picture that the samples hold and that is compared.
 [[nodiscard]] std::optional<ResolvedVerdict> right_resolved(const Samples& samples, const Colors& candidate,
-                                                            const std::vector<std::uint32_t>& doubtful);
+                                                            const std::vector<std::uint32_t>& doubtful,
+                                                            const std::optional<rasterizer::Rect>& within = {});
 
 // The pixels that are wrong, by their colours or else by their alpha.
 [[nodiscard]] const std::vector<std::uint32_t>& wrong_pixels(const ResolvedVerdict& verdict);

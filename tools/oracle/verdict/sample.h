@@ -15,6 +15,7 @@ namespace strata::oracle::verdict {
 struct ChannelUse {
     bool is_divided = false;  // the file has straight colours, and the target has them multiplied by alpha again
     bool has_alpha = true;    // false: alpha is not compared
+    bool is_encoded = false;  // the file holds sRGB codes of a frame of linear values (resolved.h)
 };
 
 // The colours of a candidate, row by row from the top; grey is used for all three colour channels.

@@ -12,19 +12,16 @@
 #include "scenes/files/picture_attributes.h"
 #include "scenes/files/profile_json.h"
 #include "scenes/packs/pack_scene.h"
+#include "tools/oracle/judge/diagnose_picture.h"
 #include "tools/oracle/mistakes/diagnosis_report.h"
 #include "tools/oracle/mistakes/distinguishing_scene.h"
-#include "tools/oracle/mistakes/machine_options.h"
 #include "tools/oracle/mistakes/scenes_diagnosis.h"
 #include "tools/oracle/pack/manifest_value.h"
 #include "tools/oracle/pack/pack_pictures.h"
-#include "tools/oracle/verdict/form.h"
-#include "tools/oracle/verdict/other_profile.h"
-#include "tools/oracle/verdict/report.h"
-#include "tools/oracle/verdict/sample.h"
-#include "tools/oracle/verdict/verdict.h"
+#include "tools/oracle/stored_like.h"
 #include "tools/strata/command.h"
 #include "tools/strata/compare_pages.h"
+#include "tools/strata/compare_scene.h"
 #include "tools/strata/diagnose/diagnosis_page.h"
 #include "tools/strata/diagnose/mistakes.h"
 #include "tools/strata/messages.h"
@@ -33,7 +30,6 @@
 #include "tools/strata/progress.h"
 #include "tools/strata/recorded_command.h"
 #include "tools/strata/render/run.h"
-#include "tools/strata/samples_verdict.h"
 #include "tools/strata/tolerances.h"
 
 namespace strata::tools {
@@ -90,23 +86,21 @@ struct OpenCase {
     std::vector<oracle::PassPicture> passes{};
     Session session{};
     std::optional<oracle::MistakeRenderer> mistake_renderer{};
-    std::vector<oracle::Mistake> machine_options{};
     std::optional<oracle::MistakeImages> mistake_images{};
 
     [[nodiscard]] const std::vector<oracle::PassPicture>* passes_or_null() const {
         return passes.empty() ? nullptr : &passes;
     }
+    [[nodiscard]] const peeling::Algorithm& algorithm() const { return *options.run.algorithms[0]; }
     [[nodiscard]] oracle::RunInput input() const {
-        return {session.scene.list, session.view, session.profile, options.run.render, sampling(options.run)};
+        return {session.scene.list, session.view,          session.profile,
+                options.run.render, sampling(options.run), options.run.scene_options.color_space};
     }
     [[nodiscard]] oracle::Comparison comparison() const {
-        return oracle::compare(mistake_renderer->right(), candidate, options.tolerances);
+        return oracle::compare(stored_like(mistake_renderer->right(), candidate, input().space), candidate,
+                               options.tolerances);
     }
 };
-
-// The hypotheses that are tried. With several scenes only mistakes are, because only they have the same names in every
-// scene.
-enum class Tried : std::uint8_t { mistakes, options_too };
 
 std::vector<pipeline::DeviceProfile> more_profiles(const DiagnoseOptions& options) {
     std::vector<pipeline::DeviceProfile> more;
@@ -114,12 +108,7 @@ std::vector<pipeline::DeviceProfile> more_profiles(const DiagnoseOptions& option
     return more;
 }
 
-std::vector<oracle::Mistake> machine_options(const OpenCase& opened) {
-    const auto more = more_profiles(opened.options);
-    return oracle::machine_options(*opened.options.run.algorithms[0], opened.mistake_renderer->right_run(), more);
-}
-
-std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given, Tried tried, const oracle::ShowProgress& progress) {
+std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given) {
     auto opened = std::make_unique<OpenCase>();
     opened->options = given;
     DiagnoseOptions& options = opened->options;
@@ -127,7 +116,7 @@ std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given, Tried tried, c
     choose_algorithm(options.run);
     complete(options.run);
     if (options.run.algorithms.size() != 1) throw CLI::ValidationError("--algorithm takes one algorithm here");
-    const peeling::Algorithm& algorithm = *options.run.algorithms[0];
+    const peeling::Algorithm& algorithm = opened->algorithm();
     opened->candidate = read_candidate(options, algorithm.name);
     state_alpha(opened->candidate, options.alpha_form);
     opened->passes = read_passes(options, algorithm.name);
@@ -135,12 +124,16 @@ std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given, Tried tried, c
     options.run.render.width = opened->candidate.targets[0].width;
     options.run.render.height = opened->candidate.targets[0].height;
     opened->session = open_session(options.run);
-    opened->mistake_renderer.emplace(
-        opened->input(), algorithm,
-        oracle::has_depth(opened->candidate) ? oracle::Depths::made : oracle::Depths::left_out, options.limit);
-    if (tried == Tried::options_too) opened->machine_options = machine_options(*opened);
-    opened->mistake_images.emplace(*opened->mistake_renderer, progress, opened->machine_options);
     return opened;
+}
+
+// Draws the scene with every mistake. With several scenes only mistakes are tried, because only they have the same
+// names in every scene.
+void draw_mistakes(OpenCase& opened) {
+    opened.mistake_renderer.emplace(
+        opened.input(), opened.algorithm(),
+        oracle::has_depth(opened.candidate) ? oracle::Depths::made : oracle::Depths::left_out, opened.options.limit);
+    opened.mistake_images.emplace(*opened.mistake_renderer);
 }
 
 // Pictures written by this program contain their command. A difference of options, such as a forgotten --background, is
@@ -168,59 +161,6 @@ int status_of(oracle::Verdict verdict) {
     return verdict == right || verdict == other_options || verdict == right_structure ? 0 : 1;
 }
 
-// The same of several samples, whose mean is judged: it may be right, while mistakes are not searched.
-void ask_samples(const OpenCase& opened, const oracle::Target& colors, oracle::Diagnosis& found) {
-    const oracle::RunInput input = opened.input();
-    if (input.sampling.is_joint() || input.sampling.resolve != pipeline::Resolve::box) return;
-    const SamplesVerdict samples = judge_samples(input,
-                                                 {colors, opened.options.alpha_form.has_value(),
-                                                  opened.options.tolerances.channels == oracle::ColorChannels::all},
-                                                 more_profiles(opened.options));
-    if (!samples.found.is_right()) return;
-    found.structure = to_text(samples);
-    found.structure_json = to_json(samples);
-    found.is_nearly = false;
-    found.verdict = oracle::Verdict::right_structure;
-}
-
-// Judges the picture by its layers, unless one mistake alone reproduces it to the last code. Any other picture may come
-// from a correct port with other rounding, or from a mistake that is not in the catalogue. Approximate algorithms are
-// skipped, because they have no correct layers.
-void ask_layers(const OpenCase& opened, oracle::Diagnosis& found) {
-    const oracle::Finding& best = found.findings.front();
-    const bool is_exact = best.agreeing == found.pixels && !found.passes_contradict &&
-                          (best.mistakes.size() < 2 || found.verdict == oracle::Verdict::other_options);
-    const auto colors = std::ranges::find(opened.candidate.targets, oracle::Meaning::color, &oracle::Target::meaning);
-    if (is_exact || found.is_blank || colors == opened.candidate.targets.end() || opened.passes_or_null() != nullptr ||
-        !opened.options.run.algorithms[0]->exact)
-        return;
-    if (opened.input().sampling.samples > 1) return ask_samples(opened, *colors, found);
-    const peeling::RenderOptions& options = opened.options.run.render;
-    const pipeline::DrawList& list = opened.session.scene.list;
-    oracle::verdict::SceneFragments fragments{{list, opened.session.view, opened.session.profile, options},
-                                              options.fragment_memory};
-    oracle::verdict::Formed formed = oracle::verdict::formed(fragments, *colors, opened.options.alpha_form.has_value());
-    formed.use.has_alpha = opened.options.tolerances.channels == oracle::ColorChannels::all;
-    const oracle::verdict::Colors seen = formed.colors();
-    oracle::verdict::Verdict layers = judge(fragments, seen);
-    std::string profile;
-    const bool has_wrong_alpha = layers.alpha.state == oracle::verdict::AlphaState::wrong;
-    if (!layers.is_right && !layers.is_undecided() && !has_wrong_alpha) {
-        const pipeline::DeviceProfile& given = opened.session.profile;
-        if (auto other = right_by_other_profile({list, opened.session.view, given, options}, options.fragment_memory,
-                                                seen, layers.right.wrong_pixels, more_profiles(opened.options))) {
-            profile = other->description(given.name, layers.right.wrong_pixels.size());
-            layers = std::move(other->verdict);
-        }
-    }
-    if (!layers.is_right && layers.explanations.empty() && layers.alpha.state != oracle::verdict::AlphaState::wrong)
-        return;
-    found.structure = to_text(layers, list) + formed.description() + profile;
-    found.structure_json = to_json(layers, list);
-    found.is_nearly = false;
-    found.verdict = layers.is_right ? oracle::Verdict::right_structure : oracle::Verdict::unknown_mistake;
-}
-
 // Finds the scene of the suite that distinguishes the remaining mistakes: those that produce the same picture, or the
 // best findings.
 void find_distinguishing_scene(oracle::Diagnosis& found) {
@@ -238,18 +178,24 @@ void find_distinguishing_scene(oracle::Diagnosis& found) {
 }
 
 int diagnose_one(const DiagnoseOptions& options) {
-    Progress machines("wrong machines");
-    const auto opened = open_case(options, Tried::options_too, shown_by(machines));
-    Progress pairs("pairs of mistakes");
-    oracle::Diagnosis found = opened->mistake_images->diagnose(opened->candidate, options.tolerances, shown_by(pairs),
-                                                               opened->passes_or_null());
-    ask_layers(*opened, found);
+    const auto opened = open_case(options);
+    const std::vector<pipeline::DeviceProfile> more = more_profiles(options);
+    Progress emulations("emulations"), pairs("pairs of mistakes");
+    auto [found, comparison, right, made] = oracle::diagnose_picture({.input = opened->input(),
+                                                                      .algorithm = opened->algorithm(),
+                                                                      .candidate = opened->candidate,
+                                                                      .tolerances = options.tolerances,
+                                                                      .is_form_stated = options.alpha_form.has_value(),
+                                                                      .camera = camera_in_words(opened->options.run),
+                                                                      .limit = options.limit,
+                                                                      .more = more,
+                                                                      .passes = opened->passes_or_null()},
+                                                                     shown_by(emulations), shown_by(pairs));
     find_distinguishing_scene(found);
-    const oracle::Comparison comparison = opened->comparison();
     if (found.verdict != oracle::Verdict::right) warn_of_other_command(*opened);
     if (!options.report.empty()) {
         const std::string command = canonical_command("render", opened->options.run, opened->options.run.algorithms);
-        const DiagnosisShown shown{found, comparison, opened->mistake_renderer->right(), opened->candidate};
+        const DiagnosisShown shown{found, comparison, right, opened->candidate};
         write_page(options.report, diagnosis_page(command, shown));
     }
     print(options.json ? to_json(found, comparison) : to_text(found, comparison));
@@ -289,7 +235,8 @@ int diagnose_several(const DiagnoseOptions& options, const std::vector<std::stri
         of_scene.candidate = made_of(name, options.candidate);
         if (of_scene.candidate.empty()) continue;
         take_pack_state(of_scene.run, of_scene.run.scene);
-        opened.push_back(open_case(of_scene, Tried::mistakes, {}));
+        opened.push_back(open_case(of_scene));
+        draw_mistakes(*opened.back());
         const OpenCase& c = *opened.back();
         scenes.push_back({name, &*c.mistake_images, &c.candidate, c.passes_or_null()});
         reports.push_back({name, c.comparison()});

@@ -1,0 +1,63 @@
+// Tests what `strata compare` and `strata diagnose` say of a picture that was made with an option of the view which the
+// command lacks, on pictures that `strata render` draws with it.
+#include <catch2/catch.hpp>
+
+#include "tests/tools/program.h"
+
+using namespace strata::test;
+
+namespace {
+
+struct Forgotten {
+    std::string made_with, given, second_line;
+};
+
+std::string second_line(const CommandResult& found) {
+    const std::vector<std::string> lines = lines_of(found.out);
+    return lines.size() > 1 ? lines[1] : "";
+}
+
+CommandResult compared(const Folder& folder, const Forgotten& option) {
+    REQUIRE(shell(folder, "strata render teapot --size 64x48 -q -o port.png " + option.made_with).status == 0);
+    return shell(folder, "strata compare teapot port.png " + option.given);
+}
+
+}  // namespace
+
+TEST_CASE("a forgotten option of the view is named with what makes the picture right") {
+    const Folder folder;
+    for (const Forgotten& option : {
+             Forgotten{"--samples 4", "", "  looks forgotten: --samples 4; with it the picture is right"},
+             Forgotten{"--samples 8", "--background 0,0,0",
+                       "  looks forgotten: --samples 8; with it the picture is right"},
+             Forgotten{"--samples 2 --origin lower-left --profile ideal", "--profile ideal",
+                       "  looks forgotten: --samples 2; with it the picture is right"},
+             Forgotten{"--samples 4 --background 1,1,1", "",
+                       "  looks forgotten: --background 1,1,1 --samples 4; with it the picture is right"},
+         }) {
+        const CommandResult found = compared(folder, option);
+        INFO(option.made_with << ": " << found.out << found.err);
+        CHECK(found.status == 1);
+        CHECK(second_line(found) == option.second_line);
+        CHECK(compared(folder, {option.made_with, option.made_with, ""}).status == 0);
+    }
+}
+
+TEST_CASE("a picture from another camera is named as such with the view that it was compared with") {
+    const Folder folder;
+    const CommandResult found = compared(folder, {"--orbit 200,60 --background 1,1,1", "", ""});
+    INFO(found.out);
+    CHECK(found.status == 1);
+    CHECK(found.out.find("another camera, size or scene? ") != std::string::npos);
+    CHECK(found.out.find("compared with: --orbit 30,20, background 0,0,0\n") != std::string::npos);
+}
+
+TEST_CASE("diagnose says which option looks forgotten before its leads and nothing of a right picture") {
+    const Folder folder;
+    REQUIRE(shell(folder, "strata render planes:count=3 --size 40x30 --samples 4 -q -o port.png").status == 0);
+    const CommandResult found = shell(folder, "strata diagnose planes:count=3 port.png --algorithm front_to_back");
+    INFO(found.out);
+    CHECK(found.out.find("looks forgotten: --samples 4; with it the picture is right") < found.out.find("  lead: "));
+    REQUIRE(shell(folder, "strata render planes:count=3 --size 40x30 -q -o right.png").status == 0);
+    CHECK(shell(folder, "strata compare planes:count=3 right.png").out.find("forgotten") == std::string::npos);
+}

@@ -1,0 +1,71 @@
+// Tests the library's verdict on pictures that the library renders with another format, and with layers lost.
+#include <strata/catch2.h>
+#include <strata/strata.h>
+
+#include <catch2/catch.hpp>
+
+using Catch::Contains;
+using Catch::StartsWith;
+
+namespace {
+
+const strata::Scene& teapot() {
+    static const strata::Scene scene("teapot");
+    return scene;
+}
+
+strata::Rendering drawn_teapot(const strata::RenderOptions& options, const strata::Multisampling& sampling = {}) {
+    return strata::render(teapot(), strata::algorithm("front_to_back"), strata::profile("geforce8"), options, sampling);
+}
+
+const strata::RenderOptions small_frame{.width = 48, .height = 36};
+
+}  // namespace
+
+TEST_CASE("the library calls a port with accumulators of another format right and diagnose names no mistake") {
+    strata::RenderOptions halves = small_frame;
+    halves.color_format = strata::pipeline::Format::rgba16f;
+    halves.result_format = strata::pipeline::Format::rgba8;
+    const auto picture = strata::picture_of(drawn_teapot(halves).color());
+    const strata::Judgement found = strata::judge(teapot(), picture, strata::profile("geforce8"), small_frame);
+    CHECK(found.is_right);
+    CHECK_THAT(found.sentence, StartsWith("right: structure exact at "));
+    CHECK(found.leads.empty());
+    const auto diagnosed =
+        strata::diagnose(teapot(), picture, strata::algorithm("dual"), strata::profile("geforce8"), small_frame);
+    CHECK(diagnosed.is_right());
+    CHECK(diagnosed.mistakes().empty());
+}
+
+TEST_CASE("the library's verdict on a wrong picture has the sentence of the command and its mistakes") {
+    strata::RenderOptions two = small_frame;
+    two.max_passes = 2;
+    const auto picture = strata::picture_of(drawn_teapot(two).color());
+    const strata::Judgement found = strata::judge(teapot(), picture, strata::profile("geforce8"), small_frame);
+    CHECK_FALSE(found.is_right);
+    CHECK_THAT(found.sentence, StartsWith("wrong: "));
+    REQUIRE(found.mistakes.size() >= 1);
+    CHECK_THAT(found.text, StartsWith(found.sentence + "\n") && Contains(found.mistakes[0]));
+    CHECK_THAT(found.json, Contains("\"verdict\": \"wrong\""));
+}
+
+TEST_CASE("the library's verdict on a resolved picture says which option of the view looks forgotten") {
+    const strata::Multisampling four{.samples = 4};
+    const auto picture = strata::picture_of(drawn_teapot(small_frame, four).color());
+    CHECK(strata::judge(teapot(), picture, strata::profile("geforce8"), small_frame, four).is_right);
+    const strata::Judgement single = strata::judge(teapot(), picture, strata::profile("geforce8"), small_frame);
+    CHECK_FALSE(single.is_right);
+    CHECK(single.forgotten == std::vector<std::string>{"looks forgotten: --samples 4; with it the picture is right"});
+}
+
+TEST_CASE("the matcher of a scene accepts a right picture and its message has the verdict's sentence") {
+    const auto right = strata::picture_of(drawn_teapot(small_frame).color());
+    const strata::MatchesScene matches{teapot(), strata::profile("geforce8"), small_frame};
+    CHECK(matches.match(right));
+    auto wrong = right;
+    for (std::size_t i = 0; i < wrong.targets[0].codes.size(); i += 5) wrong.targets[0].codes[i] ^= 0x55;
+    CHECK_FALSE(matches.match(wrong));
+    CHECK_THAT(matches.describe(), Contains("wrong: "));
+    CHECK_THROWS_WITH(strata::judge(teapot(), strata::Picture{}, strata::profile("geforce8"), small_frame),
+                      "candidate: targets: expected colours, found none");
+}

@@ -1,0 +1,19 @@
+// tools/oracle/judge/asked_picture.h - a picture of a scene on which a verdict is asked, and how to read it.
+#pragma once
+#include "tools/oracle/picture.h"
+
+namespace strata::peeling {
+struct Algorithm;
+}
+
+namespace strata::oracle {
+
+struct AskedPicture {
+    const Target& colors;
+    bool is_form_stated = false;                    // the caller states whether colours are straight or premultiplied
+    bool has_alpha = true;                          // false: alpha is not compared
+    const peeling::Algorithm* algorithm = nullptr;  // that the port runs; null: not known
+    std::string camera = "the given camera";        // in words, for a hint that it may be another
+};
+
+}  // namespace strata::oracle

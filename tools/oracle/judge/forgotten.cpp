@@ -1,0 +1,297 @@
+#include "tools/oracle/judge/forgotten.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "pipeline/device/profile.h"
+#include "scenes/numbers/srgb_encode.h"
+#include "tools/oracle/judge/samples_verdict.h"
+#include "tools/oracle/verdict/fragments.h"
+#include "tools/oracle/verdict/other_profile.h"
+#include "tools/oracle/verdict/picture_verdict.h"
+
+namespace strata::oracle {
+
+namespace {
+
+using Color = std::array<double, 3>;
+using verdict::Colors;
+using verdict::OtherRules;
+using verdict::PixelList;
+using verdict::SceneFragments;
+using verdict::TileLists;
+
+// The scene's picture in real numbers, and where it is drawn.
+struct Expected {
+    std::vector<Color> color;
+    std::vector<std::uint32_t> nearest;  // per pixel: 1 + the number of the nearest triangle; 0: none
+    std::vector<bool> is_drawn;
+};
+
+Expected expected(const SceneFragments& scene) {
+    const auto width = static_cast<std::size_t>(scene.width());
+    const std::size_t pixels = width * static_cast<std::size_t>(scene.height());
+    Expected all{std::vector<Color>(pixels), std::vector<std::uint32_t>(pixels), std::vector<bool>(pixels)};
+    std::mutex mutex;
+    scene.for_each_tile([&](const TileLists& tile) {
+        const std::scoped_lock lock{mutex};
+        for (std::size_t p = 0; p < tile.rect.area(); ++p) {
+            const PixelList list = scene.at(tile, p);
+            const std::size_t i = static_cast<std::size_t>(list.y) * width + static_cast<std::size_t>(list.x);
+            double through = 1;
+            for (const verdict::Fragment& f : list.visible) {
+                for (std::size_t c = 0; c < 3; ++c)
+                    all.color[i][c] += through * double{f.color[3]} * double{f.color[c]};
+                through *= 1 - double{f.color[3]};
+            }
+            for (std::size_t c = 0; c < 3; ++c) all.color[i][c] += through * double{list.behind[c]};
+            all.nearest[i] =
+                list.visible.empty() ? (list.has_opaque ? 1 + list.opaque : 0) : 1 + list.visible[0].primitive;
+            all.is_drawn[i] = !list.visible.empty() || list.has_opaque;
+        }
+    });
+    return all;
+}
+
+Color color_at(const Colors& picture, std::size_t pixel) {
+    const auto width = static_cast<std::size_t>(picture.width());
+    const auto value = picture.at(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
+    return {value[0], value[1], value[2]};
+}
+
+double distance(const Color& a, const Color& b) {
+    double worst = 0;
+    for (std::size_t c = 0; c < 3; ++c) worst = std::max(worst, std::fabs(a[c] - b[c]));
+    return worst;
+}
+
+constexpr double two_codes = 2.5 / 255;
+
+// The colour that most of the pixels have where nothing is drawn, if it is not the background's.
+struct SeenBackground {
+    Color color{};
+    std::size_t pixels = 0, of = 0;
+};
+
+std::optional<SeenBackground> seen_background(const Expected& right, const Colors& picture, const Color& given) {
+    std::map<Color, std::size_t> count;
+    SeenBackground seen;
+    for (std::size_t i = 0; i < right.color.size(); ++i)
+        if (!right.is_drawn[i]) ++count[color_at(picture, i)], ++seen.of;
+    if (count.empty()) return std::nullopt;
+    const auto most = std::ranges::max_element(count, {}, [](const auto& one) { return one.second; });
+    seen.color = most->first;
+    seen.pixels = most->second;
+    const bool are_many = seen.of >= 16 && 10 * seen.pixels >= 6 * seen.of;
+    return are_many && distance(seen.color, given) > two_codes ? std::optional{seen} : std::nullopt;
+}
+
+std::string number_of(double v) {
+    std::string text = fmt::format("{:.3f}", v);
+    while (text.ends_with('0')) text.pop_back();
+    if (text.ends_with('.')) text.pop_back();
+    return text;
+}
+
+// As --background takes it.
+std::string words_of(const Color& color) {
+    return fmt::format("{},{},{}", number_of(color[0]), number_of(color[1]), number_of(color[2]));
+}
+
+Color given_background(const RunInput& input) {
+    const auto& b = input.options.background;
+    return {double{b[0]}, double{b[1]}, double{b[2]}};
+}
+
+Color in_srgb(const Color& color, pipeline::ColorSpace space) {
+    if (space == pipeline::ColorSpace::encoded) return color;
+    Color encoded;
+    for (std::size_t c = 0; c < 3; ++c) encoded[c] = double{scenes::encode_srgb(static_cast<float>(color[c]))};
+    return encoded;
+}
+
+// Another way to draw the scene.
+struct Way {
+    std::string words;  // "--samples 4"
+    std::optional<Color> background{};
+    int samples = 1;
+    double right = 0, up = 0;  // moved by pixels
+};
+
+std::vector<Way> ways(const RunInput& input, const std::optional<SeenBackground>& seen) {
+    std::vector<Way> all;
+    for (const bool is_seen : {false, true}) {
+        if (is_seen && !seen) continue;
+        const std::string words = is_seen ? "--background " + words_of(in_srgb(seen->color, input.space)) : "";
+        const auto add = [&](const std::string& more, int samples, double right, double up) {
+            Way way{words + (words.empty() || more.empty() ? "" : " ") + more, {}, samples, right, up};
+            if (is_seen) way.background = seen->color;
+            all.push_back(std::move(way));
+        };
+        if (is_seen) add("", input.sampling.samples, 0, 0);
+        for (const int samples : {4, 2, 8, 1})
+            if (samples != input.sampling.samples) add(fmt::format("--samples {}", samples), samples, 0, 0);
+        if (input.sampling.samples > 1) continue;
+        for (const double right : {-0.5, 0.0, 0.5})
+            for (const double up : {-0.5, 0.0, 0.5})
+                if (right != 0 || up != 0) add("", 1, right, up);
+    }
+    return all;
+}
+
+std::string moved(const Way& way) {
+    std::string text;
+    if (way.right != 0) text += way.right < 0 ? "left" : "right";
+    if (way.up != 0) text += fmt::format("{}{}", text.empty() ? "" : " and ", way.up < 0 ? "down" : "up");
+    return text.empty() ? "" : fmt::format("everything is half a pixel further {}", text);
+}
+
+pipeline::View moved_view(const RunInput& input, const Way& way) {
+    pipeline::View view = input.view;
+    const double x = 2 * way.right / input.options.width, y = 2 * way.up / input.options.height;
+    for (int c = 0; c < 4; ++c) {
+        view.projection[c][0] += x * view.projection[c][3];
+        view.projection[c][1] += y * view.projection[c][3];
+    }
+    return view;
+}
+
+bool is_right_so(const RunInput& input, const Way& way, const Colors& picture,
+                 const std::vector<std::uint32_t>& wrong) {
+    const pipeline::View view = moved_view(input, way);
+    RunInput so{input.list, view, input.profile, input.options, input.sampling, input.space};
+    so.sampling.samples = way.samples;
+    if (way.background)
+        for (std::size_t c = 0; c < 3; ++c) so.options.background[c] = static_cast<float>((*way.background)[c]);
+    if (way.samples == 1) return verdict::right_by_rules(so, {"", input.profile}, picture, wrong).has_value();
+    for (const auto origin : {pipeline::Origin::upper_left, pipeline::Origin::lower_left}) {
+        const OtherRules rules{"", with_origin(input.profile, origin), input.options.raster.interpolation};
+        if (right_samples_by(rules, so, picture, wrong)) return true;
+    }
+    return false;
+}
+
+std::vector<std::size_t> neighbours(std::size_t pixel, std::size_t width, std::size_t pixels) {
+    std::vector<std::size_t> all;
+    const auto x = static_cast<std::ptrdiff_t>(pixel % width), y = static_cast<std::ptrdiff_t>(pixel / width);
+    for (std::ptrdiff_t dy = -1; dy <= 1; ++dy)
+        for (std::ptrdiff_t dx = -1; dx <= 1; ++dx) {
+            const std::ptrdiff_t nx = x + dx, ny = y + dy;
+            if (nx < 0 || ny < 0 || nx >= static_cast<std::ptrdiff_t>(width)) continue;
+            const auto n = static_cast<std::size_t>(ny) * width + static_cast<std::size_t>(nx);
+            if (n < pixels) all.push_back(n);
+        }
+    return all;
+}
+
+// The number of wrong pixels at edges whose colour lies between those of their neighbours.
+std::size_t smoothed(const Expected& right, const Colors& picture, const std::vector<std::uint32_t>& wrong) {
+    const auto width = static_cast<std::size_t>(picture.width());
+    return static_cast<std::size_t>(std::ranges::count_if(wrong, [&](std::uint32_t pixel) {
+        Color low{1, 1, 1}, high{};
+        bool is_edge = false;
+        for (const std::size_t n : neighbours(pixel, width, right.color.size())) {
+            is_edge = is_edge || right.nearest[n] != right.nearest[pixel];
+            for (std::size_t c = 0; c < 3; ++c) {
+                low[c] = std::min(low[c], right.color[n][c]);
+                high[c] = std::max(high[c], right.color[n][c]);
+            }
+        }
+        const Color found = color_at(picture, pixel);
+        for (std::size_t c = 0; c < 3; ++c)
+            is_edge = is_edge && found[c] > low[c] - two_codes && found[c] < high[c] + two_codes;
+        return is_edge;
+    }));
+}
+
+// Of the pixels that are drawn here or there, those with the same colour.
+struct Agreeing {
+    std::size_t pixels = 0, of = 0;
+};
+
+Agreeing agreeing(const Expected& right, const Colors& picture, const Color& background) {
+    Agreeing found;
+    for (std::size_t i = 0; i < right.color.size(); ++i) {
+        const Color value = color_at(picture, i);
+        if (!right.is_drawn[i] && distance(value, background) <= two_codes) continue;
+        ++found.of;
+        found.pixels += distance(value, right.color[i]) <= two_codes ? 1 : 0;
+    }
+    return found;
+}
+
+}  // namespace
+
+std::vector<std::string> forgotten_options(const RunInput& input, const Colors& picture,
+                                           const std::vector<std::uint32_t>& wrong_pixels, const std::string& camera) {
+    std::vector<std::string> sentences;
+    const SceneFragments scene{{input.list, input.view, input.profile, input.options, {}, input.space},
+                               input.options.fragment_memory};
+    const Expected right = expected(scene);
+    const Color given = given_background(input);
+    const auto seen = seen_background(right, picture, given);
+    for (const Way& way : ways(input, seen)) {
+        if (!is_right_so(input, way, picture, wrong_pixels)) continue;
+        const std::string where = moved(way);
+        if (where.empty())
+            sentences.push_back(fmt::format("looks forgotten: {}; with it the picture is right", way.words));
+        else if (way.words.empty())
+            sentences.push_back(where + "; apart from that the picture is right");
+        else
+            sentences.push_back(fmt::format("looks forgotten: {}; and {}", way.words, where));
+        return sentences;
+    }
+    if (seen)
+        sentences.push_back(
+            fmt::format("looks forgotten: --background {}, the colour of {} of the {} pixels where nothing is drawn",
+                        words_of(in_srgb(seen->color, input.space)), seen->pixels, seen->of));
+    const Agreeing agree = agreeing(right, picture, seen ? seen->color : given);
+    constexpr std::size_t few = 64;
+    if (agree.of >= few && 10 * agree.pixels < agree.of)
+        sentences.push_back(fmt::format(
+            "another camera, size or scene? {} of the {} drawn pixels agree; compared with: {}, background {}",
+            agree.pixels, agree.of, camera, words_of(in_srgb(given, input.space))));
+    const std::size_t at_edges = smoothed(right, picture, wrong_pixels);
+    if (input.sampling.samples == 1 && !seen && wrong_pixels.size() >= few / 4 &&
+        10 * at_edges >= 9 * wrong_pixels.size())
+        sentences.push_back(fmt::format(
+            "as if drawn with several samples per pixel, --samples 2, 4 or 8: {} of {} wrong pixels are at edges, "
+            "between the colours of their neighbours",
+            at_edges, wrong_pixels.size()));
+    return sentences;
+}
+
+std::vector<std::string> forgotten_options(const RunInput& input, const verdict::PictureVerdict& verdict,
+                                           const std::string& camera) {
+    const std::vector<std::uint32_t>& wrong = verdict.found.right.wrong_pixels;
+    if (verdict.found.is_right || wrong.empty() || !verdict.found.explanations.empty()) return {};
+    return forgotten_options(input, verdict.formed.colors(), wrong, camera);
+}
+
+std::vector<std::string> forgotten_options(const RunInput& input, const SamplesVerdict& verdict,
+                                           const std::string& camera) {
+    if (verdict.found.wrong_pixels.empty()) return {};
+    return forgotten_options(input, verdict.form.colors(), verdict.found.wrong_pixels, camera);
+}
+
+std::string json_with_forgotten(const std::string& json, const std::vector<std::string>& sentences) {
+    auto document = nlohmann::ordered_json::parse(json);
+    document["forgotten"] = sentences;
+    return document.dump(2) + '\n';
+}
+
+std::string with_forgotten(const std::string& text, const std::vector<std::string>& sentences) {
+    const std::size_t end = text.find('\n') + 1;
+    std::string lines;
+    for (const std::string& sentence : sentences) lines += "  " + sentence + '\n';
+    return text.substr(0, end) + lines + text.substr(end);
+}
+
+}  // namespace strata::oracle

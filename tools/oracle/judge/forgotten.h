@@ -1,0 +1,39 @@
+// tools/oracle/judge/forgotten.h - which option of the view looks forgotten if a picture is wrong: --background,
+// --samples or --camera.
+//
+// Rule     The colour of the pixels where nothing is drawn is the picture's background. With that background, and with
+//          the one given, the scene is judged with 1, 2, 4 and 8 samples per pixel, with either origin, and moved by
+//          half a pixel. What makes the picture right is reported as such. Otherwise hints are reported: another
+//          background; wrong pixels at edges between their neighbours' colours; a picture that agrees almost nowhere.
+// Tests    tests/tools/forgotten_test.cpp
+#pragma once
+#include <string>
+#include <vector>
+
+#include "tools/oracle/run_input.h"
+
+namespace strata::oracle::verdict {
+class Colors;
+struct PictureVerdict;
+}  // namespace strata::oracle::verdict
+
+namespace strata::oracle {
+
+struct SamplesVerdict;
+
+// Sentences about a picture that is wrong at `wrong_pixels` (ascending numbers), without an end of line.
+[[nodiscard]] std::vector<std::string> forgotten_options(const RunInput& input, const verdict::Colors& picture,
+                                                         const std::vector<std::uint32_t>& wrong_pixels,
+                                                         const std::string& camera);
+
+// The same of a verdict; none unless colours are wrong and no mistake explains them.
+[[nodiscard]] std::vector<std::string> forgotten_options(const RunInput& input, const verdict::PictureVerdict& verdict,
+                                                         const std::string& camera);
+[[nodiscard]] std::vector<std::string> forgotten_options(const RunInput& input, const SamplesVerdict& verdict,
+                                                         const std::string& camera);
+
+// The text with the sentences as lines after the first; the JSON document with them as "forgotten".
+[[nodiscard]] std::string with_forgotten(const std::string& text, const std::vector<std::string>& sentences);
+[[nodiscard]] std::string json_with_forgotten(const std::string& json, const std::vector<std::string>& sentences);
+
+}  // namespace strata::oracle

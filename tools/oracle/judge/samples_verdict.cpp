@@ -1,0 +1,127 @@
+#include "tools/oracle/judge/samples_verdict.h"
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "pipeline/device/check.h"
+#include "pipeline/device/sample_points.h"
+#include "tools/oracle/pairs.h"
+#include "tools/oracle/verdict/other_rules.h"
+
+namespace strata::oracle {
+
+using pipeline::DeviceProfile;
+using verdict::Formed;
+using verdict::OtherRules;
+using verdict::ResolvedVerdict;
+using verdict::SceneFragments;
+
+namespace {
+
+// The fragments of each sample by the rules, of a part of the picture or of all of it.
+verdict::Samples samples_of(const RunInput& input, const OtherRules& rules,
+                            const std::optional<rasterizer::Rect>& within = {}) {
+    const int count = input.sampling.samples;
+    if (auto lacking = pipeline::check_multisampling(rules.profile, count))
+        throw pipeline::Refused{rules.profile, *std::move(lacking)};
+    verdict::Samples samples;
+    for (int number = 0; number < count; ++number) {
+        peeling::RenderOptions options =
+            within ? verdict::scissored(input.options, *within, rules.profile.origin) : input.options;
+        options.raster.interpolation = rules.interpolation;
+        pipeline::set_sample(options.raster, rules.profile.sample_positions, count, static_cast<std::size_t>(number));
+        samples.push_back(
+            std::make_unique<SceneFragments>(RunInput{input.list, input.view, rules.profile, options, {}, input.space},
+                                             std::numeric_limits<std::uint64_t>::max()));
+    }
+    return samples;
+}
+
+// The target with codes of 8 bits if its floats are all values of such codes: the resolve stored codes, and a file of
+// floats holds them. Empty otherwise.
+std::optional<Target> in_codes(const Target& target) {
+    if (target.code != Code::half && target.code != Code::single) return std::nullopt;
+    Target made = target;
+    made.code = Code::unorm8;
+    for (std::size_t i = 0; i < target.codes.size(); ++i) {
+        made.codes[i] = nearest(Code::unorm8, value(target.code, target.codes[i]));
+        if (!is_equal({target.code, target.codes[i]}, {Code::unorm8, made.codes[i]})) return std::nullopt;
+    }
+    return made;
+}
+
+// The ways to read the picture's colours.
+std::vector<Formed> forms_of(const AskedPicture& asked, pipeline::ColorSpace space) {
+    const std::optional<Target> codes = in_codes(asked.colors);
+    const AskedPicture picture{codes ? *codes : asked.colors, asked.is_form_stated, asked.has_alpha};
+    std::vector<Formed> forms;
+    const bool may_be_straight = picture.colors.alpha_form == AlphaForm::straight;
+    auto multiplied = may_be_straight ? premultiplied(picture.colors) : std::nullopt;
+    const verdict::ChannelUse use{.has_alpha = picture.has_alpha,
+                                  .is_encoded = space == pipeline::ColorSpace::linear && picture.colors.holds_encoded};
+    if (!multiplied || !picture.is_form_stated)
+        forms.push_back({.target = picture.colors, .use = use, .is_chosen = multiplied.has_value()});
+    if (multiplied)
+        forms.push_back({.target = *std::move(multiplied), .use = use, .is_chosen = !picture.is_form_stated});
+    if (multiplied) forms.back().use.is_divided = true;
+    return forms;
+}
+
+bool is_better(const ResolvedVerdict& a, const ResolvedVerdict& b) {
+    return std::pair{a.wrong_pixels.size(), a.alpha.wrong_pixels.size()} <
+           std::pair{b.wrong_pixels.size(), b.alpha.wrong_pixels.size()};
+}
+
+}  // namespace
+
+std::optional<ResolvedVerdict> right_samples_by(const OtherRules& rules, const RunInput& input,
+                                                const verdict::Colors& candidate,
+                                                const std::vector<std::uint32_t>& wrong) {
+    if (pipeline::sample_points(rules.profile.sample_positions, input.sampling.samples).empty()) return std::nullopt;
+    try {
+        const rasterizer::Rect part = verdict::most_wrong(wrong, candidate.width());
+        if (!right_resolved(samples_of(input, rules, part), candidate, wrong, part)) return std::nullopt;
+        return right_resolved(samples_of(input, rules), candidate, wrong);
+    } catch (const pipeline::Refused&) {
+        return std::nullopt;
+    }
+}
+
+SamplesVerdict judge_samples(const RunInput& input, const AskedPicture& picture, std::span<const DeviceProfile> more) {
+    SamplesVerdict verdict{.by = "the rules of profile " + input.profile.name};
+    const verdict::Samples given = samples_of(input, {"", input.profile, input.options.raster.interpolation});
+    for (Formed& form : forms_of(picture, input.space)) {
+        ResolvedVerdict found = judge_resolved(given, form.colors());
+        if (!verdict.form.target.codes.empty() && !is_better(found, verdict.found)) continue;
+        verdict.found = std::move(found);
+        verdict.form = std::move(form);
+        if (verdict.found.is_right()) return verdict;
+    }
+    // Rules decide about coverage and colours: another alpha has another cause.
+    const std::vector<std::uint32_t> wrong = verdict.found.wrong_pixels;
+    if (wrong.empty()) return verdict;
+    for (const OtherRules& other : verdict::other_rules(input, more)) {
+        auto found = right_samples_by(other, input, verdict.form.colors(), wrong);
+        if (!found) continue;
+        verdict.found = *std::move(found);
+        verdict.by = other.name;
+        verdict.description = description(other, input.profile.name, wrong.size());
+        return verdict;
+    }
+    return verdict;
+}
+
+std::string to_text(const SamplesVerdict& verdict) {
+    return to_text(verdict.found, verdict.form.target.width) + verdict.form.description() + verdict.description;
+}
+
+std::string to_json(const SamplesVerdict& verdict) {
+    auto document = nlohmann::ordered_json::parse(to_json(verdict.found, verdict.form.target.width));
+    if (verdict.form.is_chosen) document["colors"] = verdict.form.use.is_divided ? "straight" : "premultiplied";
+    document["rules"] = verdict.by;
+    return document.dump(2) + '\n';
+}
+
+}  // namespace strata::oracle

@@ -1,0 +1,41 @@
+// tools/oracle/judge/samples_verdict.h - the verdict on a picture with several samples per pixel. If it is wrong, other
+// rules are tried.
+//
+// Rule     The picture is judged by the given rules; if it is wrong, by the others of other_rules.h. The first that it
+//          is right by is the verdict's. Of a file with straight colours both forms are judged, unless the form is
+//          stated.
+// Tests    tests/tools/compare_samples_test.cpp
+#pragma once
+#include <span>
+#include <string>
+
+#include "tools/oracle/judge/asked_picture.h"
+#include "tools/oracle/run_input.h"
+#include "tools/oracle/verdict/form.h"
+#include "tools/oracle/verdict/other_rules.h"
+#include "tools/oracle/verdict/resolved.h"
+
+namespace strata::oracle {
+
+struct SamplesVerdict {
+    verdict::ResolvedVerdict found{};
+    verdict::Formed form{};     // of the picture's colours
+    std::string by{};           // what it was judged by: "the rules of profile llvmpipe with --origin lower-left"
+    std::string description{};  // a line of text, if it is right by other rules than those given
+};
+
+// `more`: profiles that are tried before the built-in ones. Throws Refused if the profile lacks the number of samples.
+[[nodiscard]] SamplesVerdict judge_samples(const RunInput& input, const AskedPicture& picture,
+                                           std::span<const pipeline::DeviceProfile> more = {});
+
+// The verdict by the rules if the picture is right by them. `wrong`: pixels that are wrong by the rules given, which
+// are compared first.
+[[nodiscard]] std::optional<verdict::ResolvedVerdict> right_samples_by(const verdict::OtherRules& rules,
+                                                                       const RunInput& input,
+                                                                       const verdict::Colors& candidate,
+                                                                       const std::vector<std::uint32_t>& wrong);
+
+[[nodiscard]] std::string to_text(const SamplesVerdict& verdict);
+[[nodiscard]] std::string to_json(const SamplesVerdict& verdict);
+
+}  // namespace strata::oracle
