@@ -16,6 +16,7 @@ set(strata_scenes_sources
   files/image_header.cpp
   files/image_io.cpp
   files/load_module.cpp
+  memory_limit.cpp
   files/picture_attributes.cpp
   files/png.cpp
   images/png_encode.cpp
@@ -80,6 +81,7 @@ set(strata_scenes_with_files
   files/deep_exr.cpp
   files/exr.cpp
   files/load_module.cpp
+  memory_limit.cpp
   files/picture_attributes.cpp
   files/png.cpp
   images/png_encode.cpp

@@ -19,6 +19,7 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/exr/openexr.h"
 #include "scenes/lfs_pointer.h"
+#include "scenes/memory_limit.h"
 
 namespace strata::scenes::exr {
 namespace {
@@ -39,6 +40,13 @@ void check(const std::string& path, const Imf::Header& header) {
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
         if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1)
             throw InputError(path, std::string{"channel "} + channel.name(), "a sample for every pixel", "fewer");
+    // A channel is stored as bytes and as 32-bit codes.
+    constexpr std::uint64_t most_bytes_a_channel = 8;
+    std::uint64_t channels = 0;
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) ++channels;
+    for (const Imath::Box2i& window : {header.dataWindow(), header.displayWindow()})
+        check_pixels(path, static_cast<std::uint64_t>(window.max.x - window.min.x) + 1,
+                     static_cast<std::uint64_t>(window.max.y - window.min.y) + 1, most_bytes_a_channel * channels);
 }
 
 StoredType as_stored(Imf::PixelType type) noexcept {

@@ -9,6 +9,7 @@
 #include "scenes/files/image_formats.h"
 #include "scenes/files/text_file.h"
 #include "scenes/images/png_encode.h"
+#include "scenes/memory_limit.h"
 
 namespace strata::scenes {
 namespace {
@@ -62,6 +63,9 @@ StoredCodes read_codes(const std::string& path, const char* reader) {
         picture.width = static_cast<int>(header.width);
         picture.height = static_cast<int>(header.height);
     }
+    picture.check = [](const FileLocation& place, int width, int height, std::uint64_t bytes_a_pixel) {
+        check_pixels(place.file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height), bytes_a_pixel);
+    };
     return image_module().decode_codes(picture, location);
 }
 

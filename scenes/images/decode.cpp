@@ -39,6 +39,10 @@ std::unique_ptr<OIIO::ImageInput> open(OIIO::Filesystem::IOProxy& memory, const 
         location.fail("IMAGE_DATA_INVALID", "grey or red, green and blue, with or without alpha",
                       std::to_string(spec.nchannels) + " other channels");
     check_size(spec, picture.bytes.size(), location);
+    // A code is stored in 32 bits, next to the reader's.
+    const std::uint64_t bytes_a_channel = sizeof(std::uint32_t) + spec.format.size();
+    if (picture.check != nullptr)
+        picture.check(location, spec.width, spec.height, bytes_a_channel * static_cast<std::uint64_t>(spec.nchannels));
     return reader;
 }
 

@@ -21,6 +21,8 @@ struct EncodedPicture {
     Bytes bytes;
     const char* reader = "";    // OpenImageIO's name of the format: "png", "jpeg", "pnm"
     int width = 0, height = 0;  // 0: the header has not been read
+    // Called with the size before memory for the pixels is taken, and may throw.
+    void (*check)(const FileLocation& location, int width, int height, std::uint64_t bytes_a_pixel) = nullptr;
 };
 
 // The largest width and height of an image in pixels, and the largest number of pixel bytes per byte of a file.

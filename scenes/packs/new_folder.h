@@ -9,6 +9,23 @@
 
 namespace strata::scenes {
 
+// A folder into which this process alone writes: the file .strata.lock in it says so to other processes, and is removed
+// at the end or by a signal that ends the process.
+class FolderClaim {
+  public:
+    // Creates the folder if it is missing. InputError if another process holds it.
+    explicit FolderClaim(const std::filesystem::path& folder);
+    FolderClaim(const FolderClaim&) = delete;
+    FolderClaim& operator=(const FolderClaim&) = delete;
+    ~FolderClaim() { give_up(); }
+    void give_up() noexcept;
+    static constexpr const char* file_name = ".strata.lock";
+
+  private:
+    std::filesystem::path file_;
+    int slot_ = -1;  // in the table of unfinished files
+};
+
 // InputError if the path exists and is not an empty folder. Call it before the work whose result is written there.
 void check_new_folder(const std::string& path);
 
@@ -27,7 +44,8 @@ class NewFolder {
 
   private:
     std::filesystem::path path_;
-    int slot_ = 0;  // in the table of unfinished files
+    FolderClaim claim_;  // of several processes that begin at once, one writes
+    int slot_ = 0;       // in the table of unfinished files
     bool keep_ = false;
 };
 

@@ -76,3 +76,36 @@ TEST_CASE("a picture that would exceed --max-memory is rejected before anything 
     CHECK(folder.files().empty());
     CHECK(run_strata(folder, {"render", "teapot", "--size", "64x64", "--max-memory", "64M"}).status == 0);
 }
+
+TEST_CASE("a verdict takes at most 200 bytes a pixel and 64 MB", "[long]") {
+    const Folder folder;
+    constexpr std::uint64_t side = 1024;
+    REQUIRE(
+        run_strata(folder, {"render", "teapot", "--alpha", "0.5", "--size", "1024x1024", "--no-audit", "-o", "a.exr"})
+            .status == 0);
+    const std::uint64_t peak = peak_of_strata(folder, {"compare", "teapot", "a.exr", "--alpha", "0.5"});
+    INFO(static_cast<double>(peak) / bytes_of_a_mebibyte << " MiB");
+    CHECK(peak > 0);
+    CHECK(peak < 200 * side * side + (std::uint64_t{64} << 20));
+}
+
+TEST_CASE("the pixels of a picture are counted before they are decoded") {
+    const Folder folder;
+    REQUIRE(shell(folder,
+                  "strata render planes:count=1 --size 1024x1024 --no-audit -q -o a.png && strata render "
+                  "planes:count=1 --size 1024x1024 --no-audit -q -o a.exr")
+                .status == 0);
+    for (const char* file : {"a.png", "a.exr"})
+        for (const char* reference : {"planes:count=1", "a.png"}) {
+            const CommandResult ended = run_strata(folder, {"compare", reference, file, "--max-memory", "40M"});
+            INFO(ended.err);
+            CHECK(ended.status == 2);
+            CHECK(std::regex_match(
+                ended.err, std::regex(R"(strata: a\.(png|exr): size: expected a picture that takes at most [0-9]+ MB, )"
+                                      R"(which --max-memory leaves, found 1024x1024, which takes about [0-9]+ MB\n)")));
+        }
+    for (const char* command : {"golden", "passes"})
+        CHECK(run_strata(folder, {command, "teapot", "--size", "1024x1024", "--max-memory", "40M", "-o", "out"})
+                  .err.starts_with("strata: --max-memory: "));
+    CHECK_FALSE(std::filesystem::exists(folder / "out"));
+}

@@ -2,6 +2,7 @@
 // passes, fragments.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/program.h"
@@ -27,6 +28,35 @@ TEST_CASE("passes writes a file per pass and a list of them and the last file ha
     const CommandResult digest = shell(folder, "strata digest --json out/" + passes.back()["file"].get<std::string>());
     CHECK(nlohmann::json::parse(digest.out)[0]["digest"] == stats["digest"]["color"]);
     CHECK(lines_of(ended.out).size() == passes.size() + 1);
+}
+
+TEST_CASE("passes of a second run replace those of the first and one of two runs at once writes a folder") {
+    const Folder folder;
+    const auto passes = [&](const char* algorithm) {
+        return run_strata(folder, {"passes", "planes:count=2", "--size", "8x8", "--algorithm", algorithm, "-o", "out"});
+    };
+    REQUIRE(passes("front_to_back").status == 0);
+    const std::size_t before = nlohmann::json::parse(content_of(folder / "out/passes.json"))["passes"].size();
+    std::ofstream{folder / "out/own.exr"} << "kept";
+    REQUIRE(passes("weighted_average").status == 0);
+    const std::size_t after = nlohmann::json::parse(content_of(folder / "out/passes.json"))["passes"].size();
+    REQUIRE(after < before);
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "out"))
+        files += entry.path().filename().string().starts_with("pass.") ? 1 : 0;
+    CHECK(files == after);
+    CHECK(std::filesystem::exists(folder / "out/own.exr"));
+    std::ofstream{folder / "out/.strata.lock"};
+    const CommandResult second = passes("front_to_back");
+    CHECK(second.status == 2);
+    CHECK(second.err ==
+          "strata: out: is being written by another run; if there is none, remove its file .strata.lock\n");
+    const CommandResult many =
+        shell(folder,
+              "for i in 1 2 3 4 5; do strata golden planes:count=2 --size 8x8 -q -o pack & done; "
+              "wait; strata golden --check pack");
+    CHECK(many.status == 0);
+    CHECK(lines_of(many.err).size() == 4);
 }
 
 TEST_CASE("passes of a rejected algorithm are reported as rejected and the others are written") {

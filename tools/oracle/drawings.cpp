@@ -73,7 +73,7 @@ std::array<std::uint8_t, 3> color_of(Kind kind) noexcept {
         case Kind::layer_merged: return {0, 255, 0};
         case Kind::layer_other: return {160, 96, 32};
         case Kind::depth: return {0, 255, 255};
-        case Kind::color: return {255, 255, 255};
+        case Kind::color: return {255, 150, 200};
     }
     return {};  // unreachable: the enum is closed
 }
@@ -99,8 +99,10 @@ pipeline::Image heat_map_with_legend(const Comparison& comparison) {
     return image;
 }
 
-pipeline::Image as_shown(const Picture& picture) {
-    const auto best = std::ranges::min_element(picture.targets, {}, [](const Target& t) { return t.meaning; });
+pipeline::Image as_shown(const Picture& picture, const std::string& name) {
+    auto best = std::ranges::find(picture.targets, name, &Target::name);
+    if (name.empty() || best == picture.targets.end())
+        best = std::ranges::min_element(picture.targets, {}, [](const Target& t) { return t.meaning; });
     const Target& target = *best;
     pipeline::Image image{pipeline::Format::rgba8, target.width, target.height};
     const auto code = [&](std::size_t pixel, int c) -> std::uint32_t {
@@ -117,6 +119,21 @@ pipeline::Image as_shown(const Picture& picture) {
                  code(i, std::min(target.channels < 3 ? 0 : 2, last))});
         }
     return image;
+}
+
+pipeline::Image beside(const std::vector<pipeline::Image>& images) {
+    int width = -gap_px, height = 1;
+    for (const pipeline::Image& image : images) {
+        width += image.width + gap_px;
+        height = std::max(height, image.height);
+    }
+    pipeline::Image all = blank(width, height, gap_grey);
+    int left = 0;
+    for (const pipeline::Image& image : images) {
+        paste(image, left, all);
+        left += image.width + gap_px;
+    }
+    return all;
 }
 
 pipeline::Image side_by_side(const Picture& reference, const Picture& candidate, const Comparison& comparison) {

@@ -19,9 +19,12 @@ namespace strata::oracle {
 // 8-bit red, green, blue of a kind.
 [[nodiscard]] std::array<std::uint8_t, 3> color_of(Kind kind) noexcept;
 
-// The image's first colour target, or the depth if it has none, converted for viewing: one channel as grey, depth
-// inverted (near is bright).
-[[nodiscard]] pipeline::Image as_shown(const Picture& picture);
+// The target of that name, else the image's first colour target, or the depth if it has none, converted for viewing:
+// one channel as grey, depth inverted (near is bright).
+[[nodiscard]] pipeline::Image as_shown(const Picture& picture, const std::string& name = "");
+
+// Pictures of any sizes next to each other, separated by grey lines.
+[[nodiscard]] pipeline::Image beside(const std::vector<pipeline::Image>& images);
 
 // Reference, candidate, heat map and map of kinds, separated by grey lines; below the maps the heat map's legend in
 // codes and the legend of the kinds that occur.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "rasterizer/base/input_error.h"
+#include "scenes/memory_limit.h"
 
 namespace strata::oracle {
 
@@ -37,6 +38,7 @@ Target read_npy(const std::string& path) {
     target.meaning = target.channels > 1 ? Meaning::color : is_wide ? Meaning::depth : Meaning::other;
     target.name = target.channels > 1 ? "color" : is_wide ? "depth" : "value";
     // NPY's elements have the same layout as raw numbers.
+    scenes::check_pixels(path, shape[1], shape[0], 4 * static_cast<std::uint64_t>(target.channels));
     const RawLayout layout{.width = target.width,
                            .height = target.height,
                            .channels = target.channels,

@@ -10,6 +10,7 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/image_io.h"
+#include "scenes/memory_limit.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/drawings.h"
 #include "tools/oracle/pack/compare_packs.h"
@@ -73,6 +74,9 @@ ComparedPaths paths_of(const CompareOptions& options) { return {options.referenc
 void write_png(const std::string& path, const pipeline::Image& image) {
     if (!path.empty()) scenes::write_image(path, {.color = image});
 }
+
+// Of every pixel of the picture, without its fragments (measured).
+constexpr std::uint64_t bytes_of_a_verdict(int samples) { return 160 + 80 * static_cast<std::uint64_t>(samples - 1); }
 
 // Returns the requested algorithm alone, or all of them if none is requested.
 std::vector<oracle::PackPictures> chosen(std::vector<oracle::PackPictures> all, const std::string& algorithm) {
@@ -146,7 +150,7 @@ int compare_folders(const CompareOptions& options) {
 oracle::Picture reference_of(const CompareOptions& options) {
     if (!is_scene(options.reference)) return oracle::read_picture(options.reference, options.layout);
     if (!scenes::is_pack(options.reference))
-        return drawn_picture({options.run, options.algorithm, false, ""},
+        return drawn_picture({.run = options.run, .algorithm = options.algorithm},
                              oracle::read_picture(options.candidate, options.layout));
     auto all = chosen(oracle::expected_pictures(options.reference), options.algorithm);
     if (all.size() != 1)
@@ -154,45 +158,33 @@ oracle::Picture reference_of(const CompareOptions& options) {
     return std::move(all[0].picture);
 }
 
-// Rejects the outputs that a verdict does not support.
-void check_without_files(const CompareOptions& options) {
-    for (const auto& [name, path] :
-         {std::pair{"--heat", &options.heat}, {"--side", &options.side}, {"--junit", &options.junit}})
-        if (!path->empty())
-            throw CLI::ValidationError(std::string(name) + " needs --exact, or a picture as the reference");
-}
-
-// Several samples per pixel have a verdict only.
-void check_samples(const CompareOptions& options, bool is_verdict) {
-    if (options.run.samples == 1) return;
-    if (!is_verdict)
-        throw CLI::ValidationError(
-            "--samples goes with a verdict on a picture of an exact algorithm, not with --exact or --tolerance");
-}
-
 // Files are written first, so they exist once the text appears on standard output.
-int compare(const CompareOptions& options) {
-    check_outputs({{"--heat", options.heat, {".png"}},
-                   {"--side", options.side, {".png"}},
-                   {"--junit", options.junit, {".xml"}},
-                   {"--report", options.report, {".html"}}});
+int compared(const CompareOptions& options) {
+    constexpr std::uint64_t bytes_of_a_comparison = 64;  // of a pixel, for two pictures and the maps
+    scenes::expect_for_a_pixel(bytes_of_a_comparison);
     if (scenes::is_pack(options.reference) && std::filesystem::is_directory(options.candidate))
         return compare_folders(options);
-    const bool is_verdict = asks_for_verdict(options) && !takes_own_picture(options);
-    check_samples(options, is_verdict);
-    if (is_verdict) {
-        check_without_files(options);
+    if (asks_for_verdict(options) && !takes_own_picture(options)) {
+        scenes::expect_for_a_pixel(bytes_of_a_verdict(options.run.samples));
         oracle::Picture picture = oracle::read_picture(options.candidate, options.layout);
         state_alpha(picture, options.alpha_form);
         const bool has_alpha = options.tolerances.channels == oracle::ColorChannels::all;
-        return compare_with_scene(
-            {options.run, options.algorithm, options.json, options.report, options.alpha_form.has_value(), has_alpha},
-            picture);
+        return compare_with_scene({options.run,
+                                   options.algorithm,
+                                   options.json,
+                                   {options.report, options.heat, options.side, options.junit},
+                                   options.alpha_form.has_value(),
+                                   has_alpha},
+                                  picture);
     }
     const oracle::Picture reference = reference_of(options);
     oracle::Picture candidate = oracle::read_picture(options.candidate, options.layout);
     state_alpha(candidate, options.alpha_form);
     check_targets(options.tolerances, names_of_targets(reference));
+    // Pictures of different sizes are an error, but both can be seen.
+    if (reference.targets[0].width != candidate.targets[0].width ||
+        reference.targets[0].height != candidate.targets[0].height)
+        write_png(options.side, oracle::beside({oracle::as_shown(reference), oracle::as_shown(candidate)}));
     const oracle::Comparison found = oracle::compare(reference, candidate, options.tolerances, options.background);
     write_png(options.heat, oracle::heat_map_with_legend(found));
     write_png(options.side, oracle::side_by_side(reference, candidate, found));
@@ -200,6 +192,23 @@ int compare(const CompareOptions& options) {
     if (!options.report.empty()) write_page(options.report, page_of(paths_of(options), reference, candidate, found));
     print(options.json ? oracle::to_json(found) : with_painted_verdicts(oracle::to_text(found)));
     return found.accepted ? 0 : 1;
+}
+
+// A picture that cannot be read or compared is a failed test case, so that it is not missing in a CI's list of tests.
+int compare(const CompareOptions& options) {
+    check_outputs({{"--heat", options.heat, {".png"}},
+                   {"--side", options.side, {".png"}},
+                   {"--junit", options.junit, {".xml"}},
+                   {"--report", options.report, {".html"}}});
+    try {
+        return compared(options);
+    } catch (const InputError& error) {
+        if (!options.junit.empty())
+            scenes::write_file(options.junit,
+                               oracle::to_junit(std::vector<oracle::JunitCase>{
+                                   {.group = "strata.compare", .name = "input", .failure = error.what()}}));
+        throw;
+    }
 }
 
 // Rejects options of a scene if the reference is a picture, except --background, which then is the background of the
@@ -223,6 +232,7 @@ void check_for_scene(const CLI::App& app, const std::vector<CLI::Option*>& of_pi
 Command add_compare(CLI::App& root) {
     auto* app = root.add_subcommand("compare", "show how a picture differs from a reference, by kinds of mistakes");
     const auto options = std::make_shared<CompareOptions>();
+    options->run.takes_size_of_picture = true;
     app->add_option_function<std::string>(
            "REFERENCE",
            [options](const std::string& reference) {
@@ -248,16 +258,21 @@ Command add_compare(CLI::App& root) {
               "an algorithm"});
     add_path(*app, options->heat,
              {"--heat", "FILE.png", "how many codes each pixel is off, with a legend", "a file name"});
-    add_path(
-        *app, options->side,
-        {"--side", "FILE.png",
-         "reference, candidate, heat map and kinds side by side; of a folder NAME.ALGORITHM.png each", "a file name"});
+    add_path(*app, options->side,
+             {"--side", "FILE.png",
+              "reference, candidate, heat map and kinds side by side, for a verdict the wrong pixels in place of "
+              "kinds; of a "
+              "folder NAME.ALGORITHM.png each",
+              "a file name"});
     add_path(
         *app, options->junit,
         {"--junit", "FILE.xml",
-         "a test case a kind, or of a folder picture, layers and passes, for continuous integration", "a file name"});
+         "for continuous integration: a test case for the verdict; of pictures one a kind, of a folder one each for "
+         "picture, layers and passes",
+         "a file name"});
     add_report_option(*app, options->report);
     app->add_flag("--json", options->json, "one JSON document instead of text");
+    add_memory_option(*app, options->run);
     const std::vector<CLI::Option*> of_pictures = app->get_options();
     add_reading_options(*app, options->run.scene_options);
     add_profile_option(*app, options->run.profile);
@@ -266,7 +281,7 @@ Command add_compare(CLI::App& root) {
     add_order_options(*app, options->run.render);
     add_view_options(*app, options->run);
     add_choice(*app, options->run.samples, "--samples", sample_counts,
-               "samples per pixel of the port; the verdict is about the mean of what they composite (default 1)");
+               "samples per pixel of the port, whose resolved picture is compared (default 1)");
     add_shading_options(*app, options->run);
     app->footer(
         "Examples:\n"

@@ -25,9 +25,13 @@ std::string command_of(const ComparedPaths& paths) {
 }
 
 void add_pictures(PlainPage& page, const ShownPair& shown, const ComparedPaths& paths) {
-    page.picture(oracle::as_shown(shown.reference), "The reference, " + file_name(paths.reference) + shown.what);
-    page.picture(oracle::as_shown(shown.candidate), "The candidate, " + file_name(paths.candidate) + shown.what);
+    page.begin_pictures();
+    page.picture(oracle::as_shown(shown.reference, shown.target),
+                 "The reference, " + file_name(paths.reference) + shown.what);
+    page.picture(oracle::as_shown(shown.candidate, shown.target),
+                 "The candidate, " + file_name(paths.candidate) + shown.what);
     add_heat_map(page, shown.comparison);
+    page.end_pictures();
 }
 
 std::string count_of(const oracle::Comparison& found) {
@@ -92,17 +96,23 @@ std::string painted_line(const std::string& line) {
 
 }  // namespace
 
-void add_heat_map(PlainPage& page, const oracle::Comparison& found) {
-    page.picture(oracle::heat_map(found),
-                 found.equal ? "How far apart: nowhere, so all of it is black"
-                             : "How far apart each pixel is, in codes of the reference's format: black is equal");
+void add_heat_scale(PlainPage& page, const oracle::Comparison& found) {
     if (found.kinds.empty()) return;
-    page.picture(oracle::kind_map(found), "Which kind of difference is where: black is equal");
     const oracle::HeatScale scale = oracle::heat_scale(found);
     std::vector<PlainPage::Mark> marks;
     for (const std::uint32_t distance : scale.marks())
         marks.push_back({scale.position(distance), std::to_string(distance) + (distance == 1 ? " code" : "")});
     page.scale(oracle::HeatScale::stops(), marks);
+}
+
+void add_heat_map(PlainPage& page, const oracle::Comparison& found) {
+    page.picture(oracle::heat_map(found),
+                 found.equal ? "How far apart: nowhere, so all of it is black"
+                             : "How far apart each pixel is, in codes of the reference's format: black is equal");
+    if (found.kinds.empty()) return page.beside_pictures();
+    page.picture(oracle::kind_map(found), "Which kind of difference is where: black is equal");
+    page.beside_pictures();
+    add_heat_scale(page, found);
     std::vector<PlainPage::Swatch> kinds;
     for (const oracle::KindReport& kind : found.kinds)
         kinds.push_back({oracle::color_of(kind.kind), std::string(name(kind.kind))});
@@ -149,26 +159,56 @@ PlainPage page_of(const ComparedPaths& paths, const oracle::Picture& reference, 
                   const oracle::Comparison& found) {
     PlainPage page{title_of(found.equal, found.accepted), command_of(paths)};
     page.lead(description_of(found));
-    add_pictures(page, {reference, candidate, found, ""}, paths);
+    add_pictures(page, {reference, candidate, found, "", ""}, paths);
     page.heading("What differs");
     add_tables(page, found);
     return page;
 }
 
+namespace {
+
+const oracle::PackPictures& of_algorithm(const std::vector<oracle::PackPictures>& all, const std::string& algorithm) {
+    return *std::ranges::find(all, algorithm, &oracle::PackPictures::algorithm);
+}
+
+// The first pass that differs.
+std::optional<ShownPair> pass_pair(const std::vector<oracle::PackPictures>& reference,
+                                   const std::vector<oracle::PackPictures>& candidate,
+                                   const oracle::PackComparison& found) {
+    if (!found.is_there || !found.first) return std::nullopt;
+    const auto of = [&](const std::vector<oracle::PackPictures>& all) -> const oracle::Picture& {
+        const auto& passes = of_algorithm(all, found.algorithm).passes;
+        return std::ranges::find(passes, found.first->number, &oracle::PassPicture::number)->targets;
+    };
+    const auto& targets = found.first->comparison.targets;
+    const auto wrong =
+        std::ranges::find_if(targets, [](const oracle::TargetReport& target) { return target.differing > 0; });
+    const std::string target = wrong == targets.end() ? "" : wrong->name;
+    return ShownPair{
+        of(reference), of(candidate), found.first->comparison,
+        (target.empty() ? "" : ", target " + target) + ", after pass " + std::to_string(found.first->number), target};
+}
+
+// Every target of every pass that differs.
+void add_passes(PlainPage& page, const oracle::PackComparison& c) {
+    Table table{{{"pass"}, {"kind"}, {"target"}, {"pixels that differ"}, {"at most, codes"}}, {}};
+    for (const oracle::ComparedPass& pass : c.passes)
+        for (const oracle::TargetReport& target : pass.targets)
+            if (target.differing > 0)
+                table.rows.push_back({std::to_string(pass.number), pass.kind, target.name,
+                                      std::to_string(target.differing), std::to_string(target.greatest)});
+    if (!table.rows.empty()) page.table(table, "The targets that differ, pass by pass");
+}
+
+}  // namespace
+
 std::optional<ShownPair> shown_pair(const std::vector<oracle::PackPictures>& reference,
                                     const std::vector<oracle::PackPictures>& candidate,
                                     const oracle::PackComparison& found) {
-    const bool shows_pass = found.first && (!found.picture || found.picture->equal);
-    if (!found.is_there || (!found.picture && !shows_pass)) return std::nullopt;
-    const auto of = [&](const std::vector<oracle::PackPictures>& all) -> const oracle::Picture& {
-        const auto& pictures = *std::ranges::find(all, found.algorithm, &oracle::PackPictures::algorithm);
-        if (!shows_pass) return pictures.picture;
-        return std::ranges::find(pictures.passes, found.first->number, &oracle::PassPicture::number)->targets;
-    };
-    if (shows_pass)
-        return ShownPair{of(reference), of(candidate), found.first->comparison,
-                         ", after pass " + std::to_string(found.first->number)};
-    return ShownPair{of(reference), of(candidate), *found.picture, ""};
+    if (found.first && (!found.picture || found.picture->equal)) return pass_pair(reference, candidate, found);
+    if (!found.is_there || !found.picture) return std::nullopt;
+    return ShownPair{of_algorithm(reference, found.algorithm).picture, of_algorithm(candidate, found.algorithm).picture,
+                     *found.picture, "", ""};
 }
 
 PlainPage page_of(const ComparedPaths& paths, const std::vector<oracle::PackPictures>& reference,
@@ -185,6 +225,10 @@ PlainPage page_of(const ComparedPaths& paths, const std::vector<oracle::PackPict
             add_pictures(page, *shown, paths);
             if (!shown->comparison.equal) add_tables(page, shown->comparison);
         }
+        add_passes(page, c);
+        const bool has_shown_pass = !c.picture || c.picture->equal;
+        if (const auto pass = pass_pair(reference, candidate, c); pass && !has_shown_pass)
+            add_pictures(page, *pass, paths);
     }
     return page;
 }

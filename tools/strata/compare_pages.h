@@ -24,6 +24,8 @@ struct ComparedPaths {
 
 // Adds a heat map of the differences with a legend in codes, and a map of the kinds of differences.
 void add_heat_map(PlainPage& page, const oracle::Comparison& found);
+// The scale in codes of the heat map before it.
+void add_heat_scale(PlainPage& page, const oracle::Comparison& found);
 // Adds tables of targets, kinds and known mistakes, and a sentence such as "12 of 640 pixels differ, by at most 3
 // codes."
 void add_tables(PlainPage& page, const oracle::Comparison& found);
@@ -35,7 +37,8 @@ struct ShownPair {
     const oracle::Picture& reference;
     const oracle::Picture& candidate;
     const oracle::Comparison& comparison;
-    std::string what;  // "" for the final picture, or ", after pass 3"
+    std::string what;      // "" for the final picture, or ", target front after pass 3"
+    std::string target{};  // the name of the one to show; "": the colours
 };
 // Empty if the candidate has no file of the algorithm, or neither a picture nor a pass that differs.
 [[nodiscard]] std::optional<ShownPair> shown_pair(const std::vector<oracle::PackPictures>& reference,

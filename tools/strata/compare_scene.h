@@ -13,11 +13,16 @@ namespace strata::tools {
 // True if `reference` names a scene rather than a picture: a built-in scene, a pack, or the file of a model.
 [[nodiscard]] bool is_scene(const std::string& reference);
 
+// The files of a verdict; empty names: none.
+struct VerdictFiles {
+    std::string report{}, heat{}, side{}, junit{};
+};
+
 struct SceneQuestion {
     RunOptions run{};       // of the scene; width and height are replaced by the candidate's
     std::string algorithm;  // empty: any exact algorithm
     bool json = false;
-    std::string report;           // path of the page; empty: none
+    VerdictFiles files{};
     bool is_form_stated = false;  // an option says whether the candidate's colours are straight or premultiplied
     bool has_alpha = true;        // alpha is compared, too
 };
@@ -26,8 +31,8 @@ struct SceneQuestion {
 [[nodiscard]] std::string camera_in_words(const RunOptions& run);
 // The candidate's colour target. Throws InputError if it has none.
 [[nodiscard]] const oracle::Target& colors_of(const oracle::Picture& candidate);
-// Opens the scene at the candidate's size.
-[[nodiscard]] Session open_at_size(SceneQuestion& question, const oracle::Target& target);
+// Opens the scene at the candidate's size. InputError names `file` if --size states another one.
+[[nodiscard]] Session open_at_size(SceneQuestion& question, const oracle::Target& target, const std::string& file);
 
 // Renders the scene with the algorithm (dual if none is named) at the candidate's size; with a depth target if the
 // candidate has one.

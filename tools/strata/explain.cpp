@@ -90,6 +90,7 @@ Command add_explain(CLI::App& root) {
         root.add_subcommand("explain", "show what happened at one pixel: its fragments, and what each pass did");
     const auto options = std::make_shared<ExplainOptions>();
     add_picture_options(*app, options->run);
+    add_memory_option(*app, options->run);
     add_option(*app, options->pixel,
                {"--pixel", "X,Y", "the pixel, from the top left", "two whole numbers from 0 such as 320,200"},
                [](std::string_view text) -> std::optional<std::optional<Pixel>> {

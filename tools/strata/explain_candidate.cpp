@@ -14,8 +14,8 @@ int explain_candidate(CandidateQuestion question) {
         throw CLI::ValidationError("--pixel", "expected a pixel from 0,0 to " + std::to_string(colors.width - 1) + "," +
                                                   std::to_string(colors.height - 1) + ", found " +
                                                   std::to_string(question.x) + "," + std::to_string(question.y));
-    SceneQuestion scene{.run = std::move(question.run), .algorithm = "", .json = question.json, .report = ""};
-    const Session session = open_at_size(scene, colors);
+    SceneQuestion scene{.run = std::move(question.run), .algorithm = "", .json = question.json};
+    const Session session = open_at_size(scene, colors, question.candidate);
     oracle::verdict::SceneFragments fragments{{session.scene.list, session.view, session.profile, scene.run.render},
                                               scene.run.render.fragment_memory};
     const oracle::verdict::Formed formed = oracle::verdict::formed(fragments, colors, false);

@@ -16,6 +16,7 @@
 #include "tools/strata/options/option.h"
 #include "tools/strata/options/pack_options.h"
 #include "tools/strata/progress.h"
+#include "tools/strata/render/memory.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/table.h"
 
@@ -47,6 +48,7 @@ int check(const std::string& path, Simd simd) {
 // Algorithms that the profile cannot run are left out; their reasons are reported.
 oracle::Golden golden_of(RunOptions& options) {
     Session session = open_session(options);
+    check_literal_memory(options, session);
     oracle::Golden golden{.scene = std::move(session.scene),
                           .color_space = options.scene_options.color_space,
                           .profile = std::move(session.profile),
@@ -128,6 +130,7 @@ Command add_golden(CLI::App& root) {
         "golden", "write everything that a port needs and must produce, or check such a pack byte by byte");
     const auto options = std::make_shared<GoldenOptions>();
     add_picture_options(*app, options->run);
+    add_memory_option(*app, options->run);
     app->get_option("SCENE")->required(false);
     add_path(*app, options->run.output,
              {"-o,--output", "PACK", "the folder to write; it must not exist or be empty", "a folder's name"});

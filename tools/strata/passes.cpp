@@ -3,19 +3,25 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "pipeline/device/check.h"
 #include "scenes/exr/parts.h"
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/image_io.h"
 #include "scenes/files/load_module.h"
+#include "scenes/packs/new_folder.h"
 #include "tools/oracle/contact_sheet.h"
 #include "tools/strata/command.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
+#include "tools/strata/render/memory.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/report/plain_page.h"
 #include "tools/strata/table.h"
@@ -110,6 +116,38 @@ void show(const RunOptions& options, const Session& session, const peeling::Algo
     print((prefix.empty() ? "" : algorithm.name + ":\n") + titled(to_text(table)));
 }
 
+// True for the names of the files of passes, with or without an algorithm's name: pass.012.exr.
+bool is_pass_file(const std::string& name) {
+    const std::size_t at = name.rfind("pass.");
+    if (at == std::string::npos || !name.ends_with(".exr") || name.find('/') != std::string::npos) return false;
+    const std::string number = name.substr(at + 5, name.size() - at - 9);
+    return (at == 0 || name[at - 1] == '.') && !number.empty() &&
+           std::ranges::all_of(number, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+// The files of passes that lists in the folder name.
+std::set<std::string> listed_passes(const std::filesystem::path& folder) {
+    std::set<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (!entry.path().filename().string().ends_with("passes.json")) continue;
+        std::ifstream in(entry.path());
+        const auto list = nlohmann::json::parse(in, nullptr, false);
+        if (!list.is_object() || !list.contains("passes") || !list["passes"].is_array()) continue;
+        for (const auto& pass : list["passes"])
+            if (pass.is_object() && pass.contains("file") && pass["file"].is_string() &&
+                is_pass_file(pass["file"].get<std::string>()))
+                files.insert(pass["file"].get<std::string>());
+    }
+    return files;
+}
+
+// Removes the passes of an earlier run that this one has not written again, so that a series is of one run.
+void remove_earlier(const std::filesystem::path& folder, const std::set<std::string>& earlier) {
+    const std::set<std::string> now = listed_passes(folder);
+    for (const std::string& name : earlier)
+        if (!now.contains(name)) std::filesystem::remove(folder / name);
+}
+
 // An algorithm that the profile refuses writes no files; the status is 2 if all are refused.
 int passes(PassesOptions& command) {
     RunOptions& options = command.run;
@@ -118,7 +156,9 @@ int passes(PassesOptions& command) {
     if (options.output.empty()) throw CLI::ValidationError("-o is missing: the folder for the files");
     static_cast<void>(scenes::exr::start_threads());
     const Session session = open_session(options);
-    std::filesystem::create_directories(options.output);
+    check_literal_memory(options, session);
+    const scenes::FolderClaim claim{options.output};
+    const std::set<std::string> earlier = listed_passes(options.output);
     int status = 2;
     PlainPage page{"Passes of " + options.scene, canonical_command("passes", options, options.algorithms)};
     for (const peeling::Algorithm* algorithm : options.algorithms) try {
@@ -127,6 +167,7 @@ int passes(PassesOptions& command) {
         } catch (const pipeline::Refused& refused) {
             say_error(algorithm->name + ": " + refused.what());
         }
+    if (status == 0) remove_earlier(options.output, earlier);
     if (status == 0) write_page(command.report, page);
     return status;
 }
@@ -138,6 +179,7 @@ Command add_passes(CLI::App& root) {
         root.add_subcommand("passes", "write every target of an algorithm after every pass, and a contact sheet");
     const auto options = std::make_shared<PassesOptions>();
     add_picture_options(*app, options->run);
+    add_memory_option(*app, options->run);
     add_report_option(*app, options->report);
     add_path(*app, options->run.output,
              {"-o,--output", "FOLDER",

@@ -45,7 +45,8 @@ TEST_CASE("a camera written as JSON is read back with the same bits for numbers 
         }
         view.view[0][0] = -0.0;
         view.view[0][1] = 0x1p-1074;
-        if (!same_bits(parse_camera(to_json(view), "camera", 1), view)) FAIL(to_json(view));
+        INFO(to_json(view));
+        REQUIRE(same_bits(parse_camera(to_json(view), "camera", 1), view));
     }
 }
 

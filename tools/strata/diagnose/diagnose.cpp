@@ -121,8 +121,7 @@ std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given) {
     state_alpha(opened->candidate, options.alpha_form);
     opened->passes = read_passes(options, algorithm.name);
     // The simulated renderers draw at the candidate's size.
-    options.run.render.width = opened->candidate.targets[0].width;
-    options.run.render.height = opened->candidate.targets[0].height;
+    take_size(options.run, opened->candidate.targets[0], opened->candidate.file);
     opened->session = open_session(options.run);
     return opened;
 }
@@ -281,7 +280,9 @@ Command add_diagnose(CLI::App& root) {
     auto* app = root.add_subcommand("diagnose", "show which known mistake, or which two, made a picture of a scene");
     const auto options = std::make_shared<DiagnoseOptions>();
     options->run.takes_one_algorithm = true;
+    options->run.takes_size_of_picture = true;
     add_picture_options(*app, options->run);
+    add_memory_option(*app, options->run);
     app->get_option("SCENE")->required(false);  // not needed with --list
     app->add_option(
            "CANDIDATE", options->candidate,

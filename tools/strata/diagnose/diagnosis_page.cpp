@@ -63,9 +63,11 @@ PlainPage diagnosis_page(const std::string& command, const DiagnosisShown& shown
     add_lines(page, to_text(shown.diagnosis, shown.comparison));
     add_findings(page, shown.diagnosis);
     page.heading("Pictures");
+    page.begin_pictures();
     page.picture(oracle::as_shown(shown.right), "As it should be");
     page.picture(oracle::as_shown(shown.candidate), "The candidate");
     add_heat_map(page, shown.comparison);
+    page.end_pictures();
     if (shown.comparison.equal) return page;
     page.heading("What differs");
     add_tables(page, shown.comparison);

@@ -213,12 +213,15 @@ void add_view_options(CLI::App& app, RunOptions& options) {
     const auto set_size = [&options](std::string_view text) {
         const auto size = to_size(text);
         if (size) options.render.height = size->height;
+        options.states_size = true;
         return size ? std::optional(size->width) : std::nullopt;
     };
-    add_option(
-        app, options.render.width,
-        {"--size", "WIDTHxHEIGHT", "pixels (default 1024x1024)", "WIDTHxHEIGHT such as 640x480, each from 1 to 16384"},
-        set_size);
+    add_option(app, options.render.width,
+               {"--size", "WIDTHxHEIGHT",
+                options.takes_size_of_picture ? "the size in pixels that the picture must have (default: the picture's)"
+                                              : "pixels (default 1024x1024)",
+                "WIDTHxHEIGHT such as 640x480, each from 1 to 16384"},
+               set_size);
     add_path(app, options.camera,
              {"--camera", "NAME|FILE", "a camera of the scene, or a JSON file with one", "a camera's name or file"});
     add_option(app, options.orbit,

@@ -38,6 +38,8 @@ struct RunOptions {
     bool takes_own_view = false;         // no view option is given, and the scene contains a view
     std::optional<scenes::ClipConvention> pack_convention;  // of the view that the scene contains, if it is a pack
     peeling::RenderOptions render;
+    // The size is that of a candidate's picture, and --size may only confirm it.
+    bool takes_size_of_picture = false, states_size = false;
     int samples = 1;                                                        // --samples: 1, 2, 4 or 8 a pixel
     std::optional<int> sample;                                              // --sample: the frame of this one alone
     bool shades_pixels = false;                                             // --shading pixel
@@ -87,6 +89,8 @@ void check_simd(Simd simd);
 
 // Adds the options of outputs and resources: --stats, -o, --no-audit, --max-memory.
 void add_output_options(CLI::App& app, RunOptions& options, const std::string& output_help);
+
+void add_memory_option(CLI::App& app, RunOptions& options);  // --max-memory
 
 // Adds --format, which is used with -o -.
 void add_format_option(CLI::App& app, RunOptions& options, const std::string& help);

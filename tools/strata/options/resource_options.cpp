@@ -2,6 +2,7 @@
 // them.
 #include <algorithm>
 
+#include "scenes/memory_limit.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/names.h"
@@ -97,11 +98,20 @@ void add_output_options(CLI::App& app, RunOptions& options, const std::string& o
     app.add_flag_callback(
         "--no-audit", [&options] { options.render.audit = false; },
         "do not compare with the exact A-buffer: faster, and those statistics are null");
+    add_memory_option(app, options);
+}
+
+void add_memory_option(CLI::App& app, RunOptions& options) {
+    const auto set_limit = [](std::string_view text) {
+        const auto bytes = to_bytes(text);
+        if (bytes) scenes::limit_memory(*bytes);
+        return bytes;
+    };
     add_option(
         app, options.max_memory,
         {"--max-memory", "SIZE", "refuse a picture that would take more, in bytes (default: what the machine has free)",
          "bytes such as 65536, 64M or 1G"},
-        to_bytes);
+        set_limit);
 }
 
 void add_format_option(CLI::App& app, RunOptions& options, const std::string& help) {

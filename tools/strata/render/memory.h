@@ -2,12 +2,9 @@
 //
 // Rule     The need is the sum of the memory that the program holds already, that the frame will need
 //          (peeling/memory_need.h) and that the writer of its file will need. The limit is --max-memory; without it,
-//          the free memory that the kernel estimates (MemAvailable of /proc/meminfo), but at most the limit of the
-//          control group. There is no limit if the system reports neither.
+//          the machine's free memory (scenes/memory_limit.h).
 // Tests    tests/tools/max_memory_test.cpp
 #pragma once
-#include <cstdint>
-
 #include "tools/strata/options/options.h"
 #include "tools/strata/render/run.h"
 
@@ -16,10 +13,7 @@ namespace strata::tools {
 // Throws CLI::ValidationError, which names --max-memory, the need and the limit.
 void check_memory(const RunOptions& options, const Session& session, const peeling::Algorithm& algorithm);
 
-// Bytes of memory that the program holds now; 0 if the system does not report it.
-[[nodiscard]] std::uint64_t held_memory();
-
-// Bytes of memory that the machine has free; empty if the system does not report it.
-[[nodiscard]] std::optional<std::uint64_t> free_memory();
+// The same for all algorithms, each of which is executed literally, over the whole frame.
+void check_literal_memory(RunOptions options, const Session& session);
 
 }  // namespace strata::tools

@@ -17,6 +17,7 @@
 #include "scenes/files/unfinished_files.h"
 #include "scenes/inside_folder.h"
 #include "scenes/numbers/srgb_encode.h"
+#include "tools/oracle/picture.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/names.h"
 #include "tools/strata/progress.h"
@@ -97,6 +98,16 @@ void take_clip_convention(RunOptions& options, const pipeline::DeviceProfile& pr
         options.depth_order.reset();
 }
 
+// Reversed depth reverses the projection of a view that is not reversed. A reversed range beside it cancels that, and
+// GREATER would draw the farthest surfaces.
+void check_reversed_once(const rasterizer::RasterState& raster, rasterizer::DepthOrder of_view) {
+    using enum rasterizer::DepthOrder;
+    if (raster.depth_order == greater && of_view == less && raster.depth_near > raster.depth_far)
+        throw CLI::ValidationError("--depth-range",
+                                   "expected NEAR below FAR with --depth-order greater, which reverses the projection: "
+                                   "reversed twice, the farthest surfaces would be drawn");
+}
+
 pipeline::Rgba premultiplied(const pipeline::Rgba& c) { return {c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]}; }
 
 }  // namespace
@@ -114,6 +125,16 @@ pipeline::View view_named(const std::string& name, const scenes::Scene& scene, d
     const std::string cameras =
         names.empty() ? "a .json file (the scene has no camera)" : one_of(names) + ", or a .json file";
     throw CLI::ValidationError("--camera", "expected " + cameras + ", found " + found_but_near(name, names));
+}
+
+void take_size(RunOptions& options, const oracle::Target& picture, const std::string& file) {
+    peeling::RenderOptions& render = options.render;
+    const auto text = [](int width, int height) { return fmt::format("{}x{}", width, height); };
+    if (options.states_size && (render.width != picture.width || render.height != picture.height))
+        throw InputError(file, "size", text(render.width, render.height) + " as --size says",
+                         text(picture.width, picture.height));
+    render.width = picture.width;
+    render.height = picture.height;
 }
 
 Session open_session(RunOptions& options) {
@@ -141,6 +162,7 @@ Session open_session(RunOptions& options) {
     const scenes::ClipConvention own =
         options.takes_own_view ? options.pack_convention.value_or(scenes::ClipConvention{}) : scenes::ClipConvention{};
     const rasterizer::RasterState& raster = options.render.raster;
+    check_reversed_once(raster, own.depth_order);
     session.view =
         scenes::with_clip_convention(find_view(options, session.scene), own, {raster.clip_depth, raster.depth_order});
     check_sorted(options, session.scene);

@@ -7,6 +7,10 @@
 #include "scenes/files/image_io.h"
 #include "tools/strata/options/options.h"
 
+namespace strata::oracle {
+struct Target;
+}
+
 namespace strata::peeling {
 class SampledRenderer;
 struct RenderResult;
@@ -29,6 +33,9 @@ struct Session {
 // Loads profile and scene, prints warnings (for example if nothing is transparent), finds the view, and applies --simd
 // and --background.
 [[nodiscard]] Session open_session(RunOptions& options);
+
+// Sets the size to the picture's. InputError names its file if --size states another one.
+void take_size(RunOptions& options, const oracle::Target& picture, const std::string& file);
 
 // One algorithm that has run. The references are valid only while the Writer runs.
 struct CompletedRun {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/text_file.h"
@@ -44,6 +46,20 @@ void PlainPage::items(const std::vector<std::string>& texts) {
     body_ += "<ul>\n";
     for (const std::string& text : texts) body_ += "<li>" + element_text(text) + "</li>\n";
     body_ += "</ul>\n";
+}
+
+void PlainPage::indented_items(const std::vector<std::string>& lines) {
+    std::size_t level = 0;
+    for (const std::string& line : lines) {
+        const std::size_t spaces = std::min(line.find_first_not_of(' '), line.size());
+        const std::size_t wanted = std::clamp<std::size_t>(spaces / 2, 1, level + 1);
+        if (wanted > level) body_ += "<ul>\n";
+        if (wanted <= level) body_ += "</li>\n";
+        for (; level > wanted; --level) body_ += "</ul></li>\n";
+        level = wanted;
+        body_ += "<li>" + element_text(line.substr(spaces));
+    }
+    for (; level > 0; --level) body_ += "</li></ul>\n";
 }
 
 void PlainPage::legend(const std::vector<Swatch>& swatches) {

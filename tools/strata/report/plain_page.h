@@ -25,6 +25,13 @@ class PlainPage {
     void heading(const std::string& text);
     void paragraph(const std::string& text);
     void items(const std::vector<std::string>& texts);  // a list with bullets
+    // A list whose items are indented by two spaces a level, as a command prints them.
+    void indented_items(const std::vector<std::string>& lines);
+    // Pictures that stand next to each other, two in a row, and next to them, where the page is wide enough, what is
+    // added between beside_pictures() and end_pictures().
+    void begin_pictures() { body_ += "<div class=\"beside\">\n<div class=\"pictures\">\n"; }
+    void beside_pictures() { body_ += "</div>\n<div>\n"; }
+    void end_pictures() { body_ += "</div>\n</div>\n"; }
     struct Swatch {
         std::array<std::uint8_t, 3> color;  // red, green, blue
         std::string words;

@@ -12,6 +12,7 @@
 #include "tools/strata/command.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
+#include "tools/strata/render/memory.h"
 #include "tools/strata/report/report_page.h"
 #include "tools/strata/table.h"
 
@@ -62,6 +63,8 @@ int report(ReportOptions& command, bool has_size) {
     const std::filesystem::path path = page_of(options.output);
     scenes::set_interrupt_message("not written: " + path.string());
     const Session session = open_session(options);
+    for (const peeling::Algorithm* algorithm : options.algorithms)
+        if (!command.region) check_memory(options, session, *algorithm);
     const ReportData data = report_data(options, session, region);
     for (const auto& entry : data.document["algorithms"])
         if (!data.has_run) say_error(entry["name"].get<std::string>() + ": " + entry["refusal"].get<std::string>());
@@ -94,6 +97,7 @@ Command add_report(CLI::App& root) {
     const auto options = std::make_shared<ReportOptions>();
     options->run.default_algorithm = "all";
     add_picture_options(*app, options->run);
+    add_memory_option(*app, options->run);
     add_resource_options(*app, options->run);
     add_option(*app, options->region,
                {"--region", "X,Y,W,H", "show these pixels of the frame of --size alone (default: all)",

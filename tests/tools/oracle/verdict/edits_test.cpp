@@ -83,21 +83,25 @@ TEST_CASE("the edits of a pixel name the layer that it lacks and are empty where
 }
 
 TEST_CASE("for a pixel that no rule explains a subset and an order of its layers is found") {
-    const OpenedScene opened{"hard:case=inside-out", side, side};
+    const OpenedScene opened{"random:seed=3,triangles=40", side, side};
+    constexpr std::size_t most_permuted = 6;  // layers whose orders are all tried
     std::vector<std::size_t> layers;
-    const auto rotate =
-        [&](PortList& l) {  // of the nearest three layers of at least five: the third, the nearest, the second
-            layers.push_back(l.visible.size());
-            if (l.visible.size() == 5) std::rotate(l.visible.begin(), l.visible.begin() + 2, l.visible.begin() + 3);
-        };
+    const auto rotate = [&](PortList& l) {  // of the nearest three layers: the third, the nearest, the second
+        layers.push_back(l.visible.size());
+        if (l.visible.size() >= 3) std::rotate(l.visible.begin(), l.visible.begin() + 2, l.visible.begin() + 3);
+    };
     const oracle::Target picture = picture_of_port(opened, port_of_codes(Order::over), rotate);
     SceneFragments fragments = opened.fragments();
     const Colors colors{picture};
     const Verdict verdict = judge(fragments, colors);
+    std::size_t asked = 0, found_edits = 0;
     for (std::size_t p = 0; p < layers.size(); ++p) {
-        if (layers[p] != 5) continue;
+        if (layers[p] < 3 || layers[p] > most_permuted) continue;
         const PixelEdits found =
             edits_at(fragments, colors, verdict, static_cast<int>(p) % side, static_cast<int>(p) / side);
-        if (!found.is_right) CHECK_FALSE(found.edits.empty());
+        asked += found.is_right ? 0 : 1;
+        found_edits += !found.is_right && !found.edits.empty() ? 1 : 0;
     }
+    CHECK(asked > 0);
+    CHECK(found_edits == asked);
 }
