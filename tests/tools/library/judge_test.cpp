@@ -58,6 +58,28 @@ TEST_CASE("the library's verdict on a resolved picture says which option of the 
     CHECK(single.forgotten == std::vector<std::string>{"looks forgotten: --samples 4; with it the picture is right"});
 }
 
+// Opaque surfaces that are drawn after all others hide what is in front of them, as reversed depths do if nothing
+// transparent lies behind.
+TEST_CASE("diagnose says of opaque surfaces drawn last that they cover the layers before them") {
+    const float wall[] = {-0.8f, -0.8f, 0.5f, 0.8f, -0.8f, 0.5f, 0.0f, 0.8f, 0.5f};
+    const float pane[] = {-0.9f, 0.5f, -0.5f, 0.9f, 0.5f, -0.5f, 0.0f, -0.9f, -0.5f};
+    strata::Scene scene, opaque;
+    scene.add({.positions = {wall, 3}, .color = {0.2f, 0.7f, 0.3f, 1}, .is_transparent = false});
+    scene.add({.positions = {pane, 3}, .color = {0.9f, 0.4f, 0.1f, 0.6f}});
+    opaque.add({.positions = {wall, 3}, .color = {0.2f, 0.7f, 0.3f, 1}, .is_transparent = false});
+    const auto profile = strata::profile("geforce8");
+    const auto& peel = strata::algorithm("front_to_back");
+    const auto behind = strata::render(opaque, peel, profile, small_frame).color();
+    auto picture = strata::picture_of(strata::render(scene, peel, profile, small_frame).color());
+    auto& codes = picture.targets[0].codes;
+    for (std::size_t i = 0; i < codes.size(); i += 4)
+        if (behind.codes[i + 1] != 0) std::copy_n(behind.codes.begin() + static_cast<std::ptrdiff_t>(i), 4, &codes[i]);
+    const auto found = strata::diagnose(scene, picture, peel, profile, small_frame);
+    INFO(found.text());
+    CHECK_FALSE(found.is_right());
+    CHECK_THAT(found.text(), Contains("opaque surfaces cover the layers before them"));
+}
+
 TEST_CASE("the matcher of a scene accepts a right picture and its message has the verdict's sentence") {
     const auto right = strata::picture_of(drawn_teapot(small_frame).color());
     const strata::MatchesScene matches{teapot(), strata::profile("geforce8"), small_frame};

@@ -59,6 +59,8 @@ void ask_layers(const DiagnosisQuestion& question, const Picture& right, Diagnos
     } else if (layers.is_right || (!is_single && (layers.is_explained || layers.is_undecided))) {
         found.structure = layers.text;
         found.verdict = layers.is_right ? Verdict::right_structure : Verdict::unknown_mistake;
+    } else if (is_single) {
+        found.by_layers = layers.mistakes;
     } else if (!is_exact && !found.is_nearly) {
         found.forgotten = layers.forgotten;
         found.leads = layers.leads;

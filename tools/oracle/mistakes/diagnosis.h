@@ -56,6 +56,7 @@ struct Diagnosis {
     std::vector<Finding> findings{};              // the best first; never empty
     std::string structure{};  // what the layers show if no image equals the candidate's; empty: not examined
     std::string structure_json{};
+    std::vector<std::string> by_layers{};  // mistakes of the layers that give the same picture as the first finding
     std::vector<std::string> forgotten{};  // which option of the view looks forgotten
     std::vector<std::string> leads{};      // of the layers: what explains some of the pixels that differ
     const SuiteScene* distinguishing_scene =

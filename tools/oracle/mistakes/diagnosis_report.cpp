@@ -147,6 +147,8 @@ std::string to_text(const Diagnosis& d, const Comparison& comparison) {
     for (const Mistake* mistake : best.alike)
         text += fmt::format("  the same picture of this scene{}: {} ({})\n", best.passes ? ", and passes alike" : "",
                             mistake->description, mistake->name);
+    for (const std::string& mistake : d.by_layers)
+        text += fmt::format("  the same picture of this scene, by its layers: {}\n", mistake);
     const bool is_none = d.verdict == Verdict::unknown_mistake || d.verdict == Verdict::right_structure;
     if (d.distinguishing_scene != nullptr)
         text += fmt::format("  the suite's scene {} tells {} apart: {}\n", d.distinguishing_scene->name,
@@ -175,6 +177,7 @@ std::string to_json(const Diagnosis& d, const Comparison& comparison) {
                           {"passes_contradict", d.passes_contradict},
                           {"right_passes", as_json(d.right_passes)},
                           {"structure", nullptr},
+                          {"by_layers", d.by_layers},
                           {"forgotten", d.forgotten},
                           {"leads", d.leads},
                           {"distinguishing_scene", nullptr},

@@ -174,7 +174,8 @@ const Mistake scene_mistakes[] = {
          if (!is_textured(e) && !has_quotient_depth(e)) make_affine(e);
          return true;
      }},
-    {"colors_decoded", "colours decoded from sRGB before they are blended", ChangedPart::scene,
+    {"colors_decoded", "colours blended as linear values, decoded from sRGB, and never encoded again",
+     ChangedPart::scene,
      [](Experiment& e) {
          const auto decode = [](Rgba& color) {
              for (std::size_t c = 0; c < 3; ++c) color[c] = scenes::decode_srgb(color[c]);
