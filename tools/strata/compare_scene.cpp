@@ -20,6 +20,7 @@
 #include "tools/oracle/judge/samples_verdict.h"
 #include "tools/oracle/mistakes/suite.h"
 #include "tools/oracle/report.h"
+#include "tools/oracle/stored_like.h"
 #include "tools/oracle/verdict/distinguish_rules.h"
 #include "tools/oracle/verdict/edits.h"
 #include "tools/oracle/verdict/picture_verdict.h"
@@ -78,7 +79,10 @@ oracle::Picture drawn_by(const peeling::Algorithm& algorithm, const Session& ses
 
 oracle::Picture drawn_picture(SceneQuestion question, const oracle::Picture& candidate) {
     const Session session = open_at_size(question, candidate.targets[0], candidate.file);
-    return drawn_by(*question.run.algorithms[0], session, question.run, candidate);
+    oracle::Picture picture = drawn_by(*question.run.algorithms[0], session, question.run, candidate);
+    // A file of 8-bit colours holds those of a float target rounded.
+    const bool is_linear = question.run.scene_options.color_space == pipeline::ColorSpace::linear;
+    return is_linear ? picture : stored_like(std::move(picture), candidate, pipeline::ColorSpace::encoded);
 }
 
 namespace {
