@@ -12,6 +12,7 @@
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/depth_float.h"
 #include "peeling/programs/fixed_passes/node_depths.h"
+#include "peeling/programs/under.h"
 
 namespace strata::peeling::listing::multi_layer {
 
