@@ -10,6 +10,8 @@ draws all fragments with OVER in one pass, needs a fragment program, and is list
 import argparse
 import pathlib
 import re
+import shutil
+import subprocess
 import sys
 
 LISTING = '''\
@@ -159,6 +161,9 @@ def main():
         except OSError as error:
             fail(f"{file}: {error.strerror}")
         print(f"wrote {file}")
+    sources = [str(file) for file in written if file.suffix == ".cpp"]
+    if shutil.which("clang-format"):
+        subprocess.run(["clang-format", "-i", *sources], check=True)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 // Tests the files of `strata compare SCENE PICTURE`: JUnit, heat maps and pictures next to each other, for verdicts
 // with one sample and several, and for inputs that cannot be compared.
 #include <catch2/catch.hpp>
+#include <fstream>
 
 #include "scenes/files/image_io.h"
 #include "tests/tools/program.h"
@@ -114,4 +115,29 @@ TEST_CASE("depth that is reversed twice is rejected by every command that draws 
         CHECK(both.err.find("the farthest surfaces would be drawn") != std::string::npos);
     }
     CHECK(shell(folder, "strata render planes:count=3 --size 24x16 --depth-order greater").status == 0);
+}
+
+TEST_CASE("a NaN is called so and not a number of codes") {
+    const Folder folder;
+    const auto write = [&](const std::string& name, const std::string& bytes) {
+        std::ofstream{folder / name, std::ios::binary} << bytes;
+    };
+    const std::string one{"\0\0\x80\x3f", 4}, half{"\0\0\0\x3f", 4}, nan{"\0\0\xc0\x7f", 4};
+    write("a.raw", one + one + one + half);
+    write("b.raw", one + nan + half + half);
+    const CommandResult ended = run_strata(folder, {"compare", "a.raw", "b.raw", "--layout", "2x2:r32f"});
+    INFO(ended.out << ended.err);
+    CHECK(ended.status == 1);
+    CHECK(ended.out.find(" NaN at 0 pixels of the reference and 1 of the candidate, first at 1,0\n") !=
+          std::string::npos);
+    CHECK(ended.out.find("4294967295") == std::string::npos);
+}
+
+TEST_CASE("reduce asks for a pack where it is given a model and compare takes a scene from standard input") {
+    const Folder folder;
+    CHECK(run_strata(folder, {"reduce", "mine.glb", "x {pack} {picture}", "-o", "y"}).err ==
+          "strata: PACK: expected a pack's folder, which `strata golden mine.glb -o PACK` writes, found 'mine.glb'\n");
+    std::ofstream{folder / "a.gltf"} << R"({"asset": {"version": "2.0"}, "scenes": [{}], "scene": 0})";
+    REQUIRE(shell(folder, "strata render a.gltf --size 8x8 --no-audit -q -o a.png").status == 0);
+    CHECK(shell(folder, "strata compare - a.png < a.gltf").status == 0);
 }

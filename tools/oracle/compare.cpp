@@ -49,6 +49,22 @@ void measure_noise(const Pair& pair, TargetReport& report) {
     report.psnr = peeling::signal_to_noise(rmse);
 }
 
+// codes.h: the distance if one of the two is NaN.
+constexpr std::uint32_t nan_distance = ~std::uint32_t{0};
+
+void count_not_numbers(const Pair& pair, std::size_t pixel, TargetReport& report) {
+    const auto has_nan = [&](const Target& target) {
+        for (int c = 0; c < std::min(target.channels, pair.channels()); ++c)
+            if (std::isnan(target.value_at(pixel, c))) return true;
+        return false;
+    };
+    report.not_numbers[0] += has_nan(*pair.reference) ? 1 : 0;
+    report.not_numbers[1] += has_nan(*pair.candidate) ? 1 : 0;
+    if (report.first_x >= 0) return;
+    report.first_x = static_cast<int>(pixel % static_cast<std::size_t>(pair.reference->width));
+    report.first_y = static_cast<int>(pixel / static_cast<std::size_t>(pair.reference->width));
+}
+
 void measure(const Pair& pair, const Tolerances& tolerances, Distances& worst, Comparison& result) {
     TargetReport report{.part = pair.reference->part,
                         .name = pair.reference->name,
@@ -62,7 +78,10 @@ void measure(const Pair& pair, const Tolerances& tolerances, Distances& worst, C
         if (apart == 0) continue;
         ++report.differing;
         ++report.distances[apart];
-        report.greatest = std::max(report.greatest, apart);
+        if (apart == nan_distance)
+            count_not_numbers(pair, i, report);
+        else
+            report.greatest = std::max(report.greatest, apart);
         of_kind[i] = std::max(of_kind[i], apart);
         if (apart <= allowed) continue;
         ++report.beyond;

@@ -74,6 +74,9 @@ struct TargetReport {
     std::uint32_t greatest = 0;               // largest distance
     std::map<std::uint32_t, std::uint64_t>
         distances{};  // number of pixels per distance of their worst channel, without 0
+    // Pixels with NaN, of the reference and of the candidate, where they differ; and the first such pixel.
+    std::array<std::uint64_t, 2> not_numbers{};
+    int first_x = -1, first_y = -1;
     // For colours that differ: root mean square over all channels in 1/255, and 20 log10(255 / rmse) in decibels.
     std::optional<double> rmse{}, psnr{};
 };

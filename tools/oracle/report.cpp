@@ -29,6 +29,7 @@ std::string histogram(const TargetReport& target) {
     std::string text;
     int shown = 0;
     for (const auto& [distance, pixels] : target.distances) {
+        if (distance == ~std::uint32_t{0}) continue;  // NaN
         if (shown++ == most) return text + fmt::format(", ... up to {}", target.greatest);
         text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", distance, pixels);
     }
@@ -52,6 +53,10 @@ std::string to_text(const Comparison& c) {
                 name(target.reference),
                 target.candidate == target.reference ? "" : fmt::format(" against {}", name(target.candidate)),
                 target.differing, target.greatest, histogram(target));
+        if (target.first_x >= 0)
+            text += fmt::format(
+                "  target {}: NaN at {} pixels of the reference and {} of the candidate, first at {},{}\n",
+                in_part(target), target.not_numbers[0], target.not_numbers[1], target.first_x, target.first_y);
         if (target.rmse)
             text += fmt::format("  target {}: RMSE {:.3f}/255, PSNR {:.2f} dB\n", in_part(target), *target.rmse,
                                 *target.psnr);

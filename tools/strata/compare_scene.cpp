@@ -31,6 +31,7 @@
 namespace strata::tools {
 
 bool is_scene(const std::string& reference) {
+    if (reference == "-") return true;  // a glTF file from standard input
     if (scenes::is_procedural(reference) || scenes::is_pack(reference) || scenes::is_model(reference)) return true;
     std::string ending = std::filesystem::path(reference).extension().string();
     std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });

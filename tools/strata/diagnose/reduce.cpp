@@ -120,6 +120,10 @@ class Runner {
 };
 
 int reduce(const ReduceOptions& options) {
+    if (scenes::is_procedural(options.pack) || !scenes::is_pack(options.pack))
+        throw CLI::ValidationError("PACK", "expected a pack's folder, which `strata golden " +
+                                               (options.pack.empty() ? "SCENE" : shell_word(options.pack)) +
+                                               " -o PACK` writes, found '" + options.pack + "'");
     for (const char* word : {"{pack}", "{picture}"})
         if (options.command.find(word) == std::string::npos)
             throw CLI::ValidationError("COMMAND", fmt::format("expected {} in it, found '{}'", word, options.command));
