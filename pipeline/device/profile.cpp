@@ -116,7 +116,7 @@ DeviceProfile llvmpipe() {
     p.name = "llvmpipe";
     p.description = "no device: Mesa 22.3's llvmpipe on a processor with fused multiply-add";
     p.raster.tie_rule = TieRule::bottom_left;
-    p.texture_filter = TextureFilterPrecision::code_lerps;
+    p.texture_filter = TextureFilterPrecision::code_lerps_fused;
     p.raster.viewport = ViewportArithmetic::fused_given;
     p.raster.sample_divisor = SampleDivisor::centre;
     p.raster.plane_rule = PlaneRule::reciprocal_area_fused;
@@ -130,6 +130,7 @@ DeviceProfile llvmpipe_sse() {
     p.description = "no device: Mesa 22.3's llvmpipe on a processor without fused multiply-add";
     p.raster.viewport = ViewportArithmetic::separate;
     p.raster.plane_rule = PlaneRule::reciprocal_area;
+    p.texture_filter = TextureFilterPrecision::code_lerps;
     return p;
 }
 

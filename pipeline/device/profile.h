@@ -34,7 +34,7 @@ enum class Depth24 : std::uint8_t { codes, binary32 };
 // The result of a filtered lookup: a multiple of 1/255, or binary32; or texels mixed by linear interpolations, as codes
 // or in binary32 (pipeline/reference/texturing.md 3). It also affects nearest lookups and pass-through coordinates
 // (devices.md 4).
-enum class TextureFilterPrecision : std::uint8_t { unorm8, single, code_lerps, single_lerps };
+enum class TextureFilterPrecision : std::uint8_t { unorm8, single, code_lerps, code_lerps_fused, single_lerps };
 // The corner of the image at which memory begins: upper_left as in Direct3D and under glClipControl(GL_UPPER_LEFT);
 // lower_left as OpenGL draws into framebuffer objects without that call. All rules apply in memory order (devices.md
 // 3.8); output images have the upper row first.

@@ -1,64 +1,50 @@
 // pipeline/textures/texel_lerps.cpp - lookups by linear interpolations of texels (texel_lerps.h).
 #include "pipeline/textures/texel_lerps.h"
 
-#include "pipeline/formats/srgb.h"
-#include "pipeline/textures/texel_address.h"
+#include "pipeline/formats/srgb_mesa.h"
+#include "pipeline/textures/texel_pair.h"
 
 namespace strata::pipeline {
 namespace {
 
 using Rule = TextureFilterPrecision;
+using rasterizer::Lanes;
 
-// Two texels along an axis, and the weight of the second: in units of 1/256 under code_lerps.
-struct TexelPair {
-    std::int32_t first = 0, second = 0, weight_256 = 0;
-    float weight = 0;
+constexpr float of_code = 1.0f / 255.0f;
+
+// How a texture is read: the way its texels are found, and the values of its codes if they are sRGB.
+struct Reading {
+    LerpAddress address;
+    bool is_fused;
+    const std::array<float, 256>& decoded;
 };
 
-float whole_part(float x) noexcept { return static_cast<float>(floor_of(x)); }
-
-bool clamps(const TexelAxis& axis) noexcept {
-    return axis.target == TextureTarget::rectangle || axis.wrap == TextureWrap::clamp_to_edge;
+bool is_mirrored(const Texture& texture) noexcept {
+    return texture.target == TextureTarget::two_d &&
+           (texture.wrap_s == TextureWrap::mirrored_repeat || texture.wrap_t == TextureWrap::mirrored_repeat);
 }
 
-// u of the rule. NaN is treated as 0, values beyond +-2^31 as +-2^31, as in texel_address.h.
-float position(const TexelAxis& axis, Rule rule, float coordinate) noexcept {
-    float c = coordinate == coordinate ? std::clamp(coordinate, -0x1p31f, 0x1p31f) : 0.0f;
-    if (axis.target == TextureTarget::rectangle) return c;
-    const bool is_power_of_two = (axis.size & (axis.size - 1)) == 0;
-    if (rule == Rule::code_lerps && axis.wrap == TextureWrap::repeat && !is_power_of_two) c -= whole_part(c);
-    return c * static_cast<float>(axis.size);
-}
-
-TexelPair pair_of(const TexelAxis& axis, Rule rule, TextureFilter filter, float coordinate) noexcept {
-    float u = position(axis, rule, coordinate);
-    if (filter == TextureFilter::nearest) return {.first = wrapped(axis, floor_of(u))};
-    if (rule == Rule::code_lerps) {
-        const std::int64_t p = nearest_even_of(256.0 * double{u}) - 128;
-        return {wrapped(axis, p >> 8), wrapped(axis, (p >> 8) + 1), static_cast<std::int32_t>(p & 255)};
-    }
-    if (clamps(axis)) u = std::clamp(u, 0.5f, static_cast<float>(axis.size) - 0.5f);
-    const float v = u - 0.5f;
-    const std::int64_t first = floor_of(v);
-    return {.first = wrapped(axis, first), .second = wrapped(axis, first + 1), .weight = v - whole_part(v)};
+Reading reading_of(const Texture& texture, Rule rule) noexcept {
+    if (rule == Rule::single_lerps) return {LerpAddress::softpipe, false, srgb_in_8_digits};
+    const bool is_fused = rule == Rule::code_lerps_fused;
+    const bool has_codes = !texture.decode_srgb && !is_mirrored(texture);
+    return {has_codes ? LerpAddress::codes : LerpAddress::floats, is_fused,
+            is_fused ? srgb_cubic<true> : srgb_cubic<false>};
 }
 
 std::int32_t lerp(std::int32_t weight_256, std::int32_t a, std::int32_t b) noexcept {
     return a + ((weight_256 * (b - a) + 128) >> 8);
 }
 
-float lerp(float weight, float a, float b) noexcept {
-    const float share = weight * (b - a);
-    return a + share;
+float lerp(bool is_fused, float weight, float a, float b) noexcept {
+    return is_fused ? multiply_add<true>(weight, b - a, a) : multiply_add<false>(weight, b - a, a);
 }
 
 }  // namespace
 
-void sample_lerps(const Texture& texture, Rule rule, const rasterizer::Lanes<float>& s,
-                  const rasterizer::Lanes<float>& t, std::array<rasterizer::Lanes<float>, 4>& rgba,
-                  int count) noexcept {
-    constexpr float of_code = 1.0f / 255.0f;
-    const Rule used = texture.decode_srgb ? Rule::single_lerps : rule;  // decoded texels have no codes
+void sample_lerps(const Texture& texture, Rule rule, const Lanes<float>& s, const Lanes<float>& t,
+                  std::array<Lanes<float>, 4>& rgba, int count) noexcept {
+    const Reading reading = reading_of(texture, rule);
     const TexelAxis s_axis{texture.target, texture.wrap_s, texture.width};
     const TexelAxis t_axis{texture.target, texture.wrap_t, texture.height};
     const auto texel = [&](std::int32_t column, std::int32_t row) {
@@ -66,25 +52,26 @@ void sample_lerps(const Texture& texture, Rule rule, const rasterizer::Lanes<flo
                                             static_cast<std::size_t>(column));
     };
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-        const TexelPair x = pair_of(s_axis, used, texture.filter, s[i]),
-                        y = pair_of(t_axis, used, texture.filter, t[i]);
+        const TexelPair x = texel_pair(s_axis, reading.address, texture.filter, s[i]),
+                        y = texel_pair(t_axis, reading.address, texture.filter, t[i]);
         const std::uint8_t* const t00 = texel(x.first, y.first);
         const std::uint8_t* const t10 = texel(x.second, y.first);
         const std::uint8_t* const t01 = texel(x.first, y.second);
         const std::uint8_t* const t11 = texel(x.second, y.second);
         for (std::size_t c = 0; c < 4; ++c) {
             const auto value = [&](std::uint8_t code) {
-                return texture.decode_srgb && c < 3 ? srgb_to_linear[code] : static_cast<float>(code) * of_code;
+                return texture.decode_srgb && c < 3 ? reading.decoded[code] : static_cast<float>(code) * of_code;
             };
+            const auto mix = [&](float weight, float a, float b) { return lerp(reading.is_fused, weight, a, b); };
             if (texture.filter == TextureFilter::nearest)
                 rgba[c][i] = value(t00[c]);
-            else if (used == Rule::code_lerps)
+            else if (reading.address == LerpAddress::codes)
                 rgba[c][i] = static_cast<float>(lerp(y.weight_256, lerp(x.weight_256, t00[c], t10[c]),
                                                      lerp(x.weight_256, t01[c], t11[c]))) *
                              of_code;
             else
-                rgba[c][i] = lerp(y.weight, lerp(x.weight, value(t00[c]), value(t10[c])),
-                                  lerp(x.weight, value(t01[c]), value(t11[c])));
+                rgba[c][i] = mix(y.weight, mix(x.weight, value(t00[c]), value(t10[c])),
+                                 mix(x.weight, value(t01[c]), value(t11[c])));
         }
     }
 }

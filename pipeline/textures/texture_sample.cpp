@@ -86,7 +86,7 @@ void round_to_unorm8(ColorLanes& rgba, std::size_t count) noexcept {
 void sample(const Texture& texture, TextureFilterPrecision precision, const Lanes<float>& s, const Lanes<float>& t,
             ColorLanes& rgba, int count) noexcept {
     using enum TextureFilterPrecision;
-    if (precision == code_lerps || precision == single_lerps)
+    if (precision == code_lerps || precision == code_lerps_fused || precision == single_lerps)
         return sample_lerps(texture, precision, s, t, rgba, count);
     const TexelAxis s_axis{texture.target, texture.wrap_s, texture.width};
     const TexelAxis t_axis{texture.target, texture.wrap_t, texture.height};
