@@ -156,7 +156,9 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
         // A piece whose winding differs from that of its triangle has left and right exchanged: it covers nothing.
         const int turn = single_turn(triangle);
         front = turn == 0 ? !triangle.run->mirrored : is_front(turn, triangle.run->mirrored);
-        if ((turn > 0) != (shape.area_sign > 0) || turn == 0) shape.area_sign = 0;
+        // A sum of 0 draws what is clockwise in the device's rows.
+        const bool is_clockwise = turn == 0 ? !window_.is_turned() : turn > 0;
+        if (is_clockwise != (shape.area_sign > 0)) shape.area_sign = 0;
     }
     if ((piece.marks & (front ? marks_front : marks_back)) != 0) return Fate::non_finite;
     if (shape.area_sign == 0) return Fate::degenerate;
@@ -183,13 +185,13 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
     return Fate::kept;
 }
 
-// The sign of the area of the given corners, computed in binary32 in memory rows; an odd number of negative w inverts
-// it.
+// The sign of the area of the given corners, the last one first, computed in binary32 in memory rows; an odd number of
+// negative w inverts it.
 int TriangleSetup::single_turn(const SourceTriangle& triangle) const noexcept {
     std::array<float, 3> x{}, y{};
     bool is_negative = window_.is_turned();
     for (std::size_t i = 0; i < 3; ++i) {
-        const ClipVertex& v = vertices_[triangle.vertex[i]];
+        const ClipVertex& v = vertices_[triangle.vertex[(i + 2) % 3]];
         const SubpixelPoint p = window_.from_first_centre(v);
         x[i] = static_cast<float>(p.x);
         y[i] = static_cast<float>(p.y);
