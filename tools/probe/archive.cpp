@@ -21,10 +21,11 @@ std::map<std::string, std::string> files_of_folder(const std::string& path) {
     const std::filesystem::path folder{path};
     std::size_t left = largest_file;  // in total, as for an archive
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (entry.is_directory() && !entry.is_symlink()) continue;
         const std::string name = entry.path().lexically_relative(folder).generic_string();
-        if (!entry.is_regular_file() ||
+        if (entry.is_symlink() || !entry.is_regular_file() ||
             scenes::inside_folder(folder, name).status != scenes::InsideFolder::PathStatus::inside)
-            continue;
+            throw InputError(path, name, "a file inside this folder", entry.is_symlink() ? "a link" : "no file");
         files[name] = scenes::read_text_file(entry.path().string(), left);
         left -= files[name].size();
     }

@@ -58,10 +58,11 @@ constexpr Dependence dependences[]{
     {"raster.vertex_color_bits", has_color_weights},
     {"raster.perspective_color", has_color_weights},
     {"raster.color", [](const RasterRules& r) { return r.plane_rule == PlaneRule::exact; }},
+    {"raster.equal_colors", [](const RasterRules& r) { return r.plane_rule != PlaneRule::exact; }},
+    {"raster.area_sign", [](const RasterRules& r) { return r.coverage == CoverageRule::snapped_edges; }},
 };
 
 constexpr Unprobed unprobed[]{
-    {"raster.area_sign", "of slivers that no scene has"},
     {"raster.w_signs", "of window positions, which no client of the kit can give"},
     {"raster.w_slope", "of a w buffer, which OpenGL has not"},
     {"raster.quantize_reference", "of a program's comparison, which no scene makes"},
@@ -74,6 +75,16 @@ constexpr Unprobed unprobed[]{
     {"alpha_to_coverage", "no scene has several samples per pixel"},
     {"sample_coverage", "no scene has several samples per pixel"},
 };
+
+// True if a triangle has a channel of one value at its corners: planes stepped in binary32 may move it.
+bool has_constant(const Draw& draw) {
+    for (std::size_t first = 0; first + 2 < draw.corners.size(); first += 3)
+        for (std::size_t c = 0; c < 4; ++c) {
+            const auto value = [&](std::size_t corner) { return draw.corners[first + corner].front[c]; };
+            if (value(0) == value(1) && value(0) == value(2)) return true;
+        }
+    return false;
+}
 
 }  // namespace
 
@@ -110,6 +121,7 @@ bool can_change(std::string_view key, const Item& item) {
                    "raster.window_z_rule", "raster.plane_anchor", "raster.sum_bits", "raster.interpolant_bits",
                    "raster.divide"}))
         return item.depth.has_value();
+    if (key == "raster.equal_colors") return any_draw(has_constant);
     if (key == "depth24") return item.depth == DepthFormat::d24;
     if (is_one_of({"raster.offset_unit", "raster.offset_rule"})) return item.depth && has_offset;
     if (key == "alpha_test") return any_draw([](const Draw& draw) { return draw.alpha_above.has_value(); });
@@ -125,7 +137,7 @@ bool can_change(std::string_view key, const Item& item) {
 
 bool is_reported(std::string_view key) {
     return key.starts_with("has_") || key.starts_with("max_") || key == "min_samples" || key == "origin" ||
-           key == "clip_depth" || key == "depth_order" || key == "raster.equal_colors";
+           key == "clip_depth" || key == "depth_order";
 }
 
 std::span<const Unprobed> unprobed_fields() { return unprobed; }
@@ -148,7 +160,7 @@ std::vector<int> searched_values(const ProfileField& f, int current) {
     return values;
 }
 
-// No frame of the kit is larger than 256 pixels, and a guard band inside the frame is not valid. Paths that need a
+// No frame of the kit is larger than 512 pixels, and a guard band inside the frame is not valid. Paths that need a
 // texture shader or a w buffer cannot draw a kit.
 bool is_valid(const DeviceProfile& profile) {
     const RasterRules& r = profile.raster;
@@ -157,7 +169,7 @@ bool is_valid(const DeviceProfile& profile) {
     if (pipeline::conflict_of(profile)) return false;
     if (r.coverage == CoverageRule::float_spans && is_chip_depth(r)) return false;
     if (r.depth_path == DepthPath::perspective_rq && !profile.has_fragment_programs) return false;
-    return r.guard_band_px >= 256;
+    return r.guard_band_px >= 512;
 }
 
 const std::vector<FieldGroup>& field_groups() {
@@ -165,7 +177,8 @@ const std::vector<FieldGroup>& field_groups() {
         {"coverage",
          Part::coverage,
          {"coverage."},
-         {"raster.coverage", "raster.subpixel_bits", "raster.snap", "raster.tie_rule"}},
+         {"raster.coverage", "raster.subpixel_bits", "raster.snap", "raster.tie_rule"},
+         {"raster.area_sign"}},
         {"positions", Part::coverage, {"positions.edges"}, {"raster.w_divide", "raster.viewport", "raster.y_axis"}},
         {"depth",
          Part::depth,
@@ -187,7 +200,7 @@ const std::vector<FieldGroup>& field_groups() {
          {"raster.plane_rule", "raster.color", "raster.plane_origin", "raster.perspective", "unorm_rounding",
           "raster.perspective_color"},
          {"raster.vertex_color_bits", "raster.weights", "raster.reciprocal_bits", "raster.reciprocal_deficit",
-          "half_rounding", "raster.subpixel_bits", "raster.snap"}},
+          "half_rounding", "raster.subpixel_bits", "raster.snap", "raster.equal_colors"}},
         {"clip",
          Part::both,
          {"clip.guard-band", "clip.", "positions."},

@@ -35,7 +35,7 @@ int BandSearch::best(const DeviceProfile& profile, const Numbers& numbers, Part 
     int found = profile.raster.guard_band_px;
     std::uint64_t points = scores.points(profile, numbers, part), sifted = scores.points(profile, bands, part);
     const auto [whole, cut] = bracket(profile);
-    const int first = std::max(256, cut - cut / 4);
+    const int first = std::max(512, cut - cut / 4);
     const std::size_t before = scores.drawn(), most = before + scenes_left;
     const std::uint64_t perfect = scores.most(numbers, part);
     const auto step = [whole = whole](int value) { return value > whole ? 1 : 1 + value / 131'072; };

@@ -232,6 +232,8 @@ std::vector<Unexplained> unexplained(const Comparison& device, const Evidence& e
 Inference infer(const ProbePack& pack, const std::vector<Item>& items, YDirection y) {
     const Comparison device{pack, items, y};
     Inference result{.profile = searched(device, pack), .orientation = y};
+    // The search begins with a built-in device, whose values of unprobed fields say nothing about this one.
+    for (const Unprobed& f : unprobed_fields()) field(f.key).set(result.profile, field(f.key).value(DeviceProfile{}));
     result.profile.origin = origin_of(y);
     result.profile.name = "inferred";
     result.profile.description = fmt::format("inferred from the answers of: {}", pack.made_by).substr(0, 1000);

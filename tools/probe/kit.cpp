@@ -75,6 +75,7 @@ const std::vector<Item>& kit() {
     static const std::vector<Item> items = [] {
         std::vector<Item> all;
         add_coverage(all);
+        add_orientation(all);
         add_positions(all);
         add_depth(all);
         add_clip(all);

@@ -38,6 +38,7 @@ void add_coverage(std::vector<Item>& items);
 void add_positions(std::vector<Item>& items);
 void add_depth(std::vector<Item>& items);
 void add_clip(std::vector<Item>& items);
+void add_orientation(std::vector<Item>& items);
 void add_colors(std::vector<Item>& items);
 void add_blending(std::vector<Item>& items);
 

@@ -98,7 +98,7 @@ Item guard_item(DepthFormat format, const std::string& name) {
 
 std::vector<int> guard_reaches() {
     std::vector<int> all;
-    for (int reach = 256; reach < 524288; reach += reach / 24) all.push_back(reach);
+    for (int reach = 512; reach < 524288; reach += reach / 24) all.push_back(reach);
     return all;
 }
 

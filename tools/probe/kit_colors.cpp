@@ -42,6 +42,24 @@ Item slopes_item(Format format, bool in_perspective, std::uint64_t seed, const s
     return item;
 }
 
+// One colour per triangle, and w that vary: planes stepped in binary32 do not keep the colour.
+Item equal_corners_item(std::uint64_t seed, const std::string& name) {
+    Item item{.name = name, .decides = {"raster.equal_colors"}, .width = 61, .height = 47, .color = Format::rgba32f};
+    Draw draw;
+    RandomGenerator random{seed};
+    for (int i = 0; i < 40; ++i) {
+        std::array<FramePosition, 3> p;
+        for (FramePosition& position : p) {
+            position = random_position(random, item, 0.0f);
+            position.w = random.between(0.5f, 4.0f);
+        }
+        const Color color = random_color(random);
+        add_triangle(item, draw, p, {color, color, color});
+    }
+    item.draws = {draw};
+    return item;
+}
+
 // Corners on pixel centres: a weight that is a whole number of 256ths is on the edge of its 8 bits for any area, and
 // the last bits of a reciprocal decide it. Also with w that are powers of two.
 Item even_weights_item(bool in_perspective, std::uint64_t seed, const std::string& name) {
@@ -160,11 +178,12 @@ Item clear_item(int first, const std::string& name) {
     return item;
 }
 
-// The same for halves: between two of them, slightly above their middle, and above the largest finite one.
+// The same for halves: between two of them, slightly above their middle, and beyond the largest finite one, where an
+// infinity and a code of one more binade differ.
 Item clear_halves_item() {
     Item item{.name = "color.clear-halves", .decides = {"half_rounding"}, .width = 8, .height = 8};
     item.color = Format::rgba16f;
-    item.clear = {0x1.004p0f, 0x1.00201p0f, 65530.0f, -0x1.006p-3f};
+    item.clear = {0x1.004p0f, 0x1.00201p0f, 70000.0f, -0x1.006p-3f};
     Draw draw;
     add_box(item, draw, 0, 0, 4, 8, {0, 1, 0, 1});
     item.draws = {draw};
@@ -199,6 +218,7 @@ void add_colors(std::vector<Item>& items) {
     items.push_back(slopes_item(Format::rgba8, true, 61, "color.perspective"));
     items.push_back(slopes_item(Format::rgba8, false, 65, "color.flat-w-large", large));
     items.push_back(slopes_item(Format::rgba8, true, 66, "color.perspective-large", large));
+    items.push_back(equal_corners_item(74, "color.equal-corners"));
     items.push_back(even_weights_item(false, 67, "color.even-weights"));
     items.push_back(even_weights_item(true, 68, "color.even-weights-perspective"));
     items.push_back(split_weights_item(70, "color.split-weights"));

@@ -28,6 +28,8 @@ using scenes::NumberArray;
 
 using Files = std::map<std::string, std::string>;
 
+constexpr int answers_version = 1;
+
 std::string file_name(YDirection y, const Item& item, std::string_view target) {
     return fmt::format("probe/{}/{}/{}.npy", name(y), item.name, target);
 }
@@ -71,6 +73,16 @@ std::optional<Answer> read_answer(const Files& files, YDirection y, const Item& 
     if (item.depth)
         answer.depth = read_image(files.at(depth), path + "/" + depth, item, pipeline::target_format(*item.depth));
     return answer;
+}
+
+// InputError unless every scene of an orientation that has answers has one, or a reason why it has none.
+void check_complete(const ProbePack& pack, const std::vector<Item>& items, const std::string& path) {
+    for (const auto& [y, answers] : pack.answers)
+        for (const Item& item : items)
+            if (!answers.contains(item.name))
+                throw InputError(path, file_name(y, item, "color"),
+                                 "the picture of a scene, or the reason in /probe/missing why there is none",
+                                 "neither");
 }
 
 // Features and limits are reported by the driver, not determined from pictures.
@@ -133,7 +145,7 @@ void write_pack(const ProbePack& pack, const std::vector<Item>& items, const std
     ordered_json probe{{"kit", pack.kit_digest}, {"device", pack.device}, {"missing", refusals(pack)}};
     if (!pack.operations.empty()) probe["operations"] = operations_digest();
     const ordered_json document{
-        {"format", "strata-candidate"}, {"version", 1}, {"made_by", pack.made_by}, {"probe", probe}};
+        {"format", "strata-candidate"}, {"version", answers_version}, {"made_by", pack.made_by}, {"probe", probe}};
     place.write("candidate.json", document.dump(1) + "\n");
     place.keep();
 }
@@ -146,6 +158,9 @@ ProbePack read_pack(const std::string& path, const std::vector<Item>& items) {
     if (!document.is_object() || !document.contains("probe") || !document["probe"].is_object())
         throw InputError(file, "/probe", "an object that says which kit was answered", "none");
     const json& probe = document["probe"];
+    if (document.value("version", json{}) != answers_version)
+        throw InputError(file, "/version", fmt::format("{}, the version that this program reads", answers_version),
+                         document.value("version", json{}).dump());
     const auto text_of = [&](const json& object, const std::string& key, const std::string& place) -> std::string {
         if (!object.contains(key)) return "";
         if (!object[key].is_string()) throw InputError(file, place, "a string", object[key].type_name());
@@ -166,6 +181,7 @@ ProbePack read_pack(const std::string& path, const std::vector<Item>& items) {
             else if (missing.contains(key) && missing[key].is_string())
                 pack.answers[y][item.name] = {.answer = std::nullopt, .refusal = missing[key].get<std::string>()};
         }
+    check_complete(pack, items, path);
     pack.operations = read_operations(probe, files, path);
     return pack;
 }

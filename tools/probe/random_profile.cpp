@@ -10,7 +10,7 @@ namespace {
 
 int random_value(const ProfileField& f, RandomGenerator& random) {
     if (f.key != "raster.guard_band_px") return f.lowest + f.step * random.below((f.highest - f.lowest) / f.step + 1);
-    const int power = 256 << random.below(11);
+    const int power = 512 << random.below(10);
     return power + random.below(power);
 }
 

@@ -34,6 +34,15 @@ TEST_CASE("every built-in device is found and no scene is unexplained") {
     }
 }
 
+TEST_CASE("fields without a scene have their ordinary values and not those of the nearest built-in device") {
+    const DeviceProfile& device = *pipeline::find_profile("llvmpipe");
+    REQUIRE(device.texture_filter != DeviceProfile{}.texture_filter);
+    const Inference found = infer(answer(device, kit(), {YDirection::up}), kit(), YDirection::up);
+    CHECK(found.profile.texture_filter == DeviceProfile{}.texture_filter);
+    CHECK(found.profile.alpha_to_coverage == DeviceProfile{}.alpha_to_coverage);
+    CHECK(finding(found, "texture_filter").state == FieldState::unprobed);
+}
+
 TEST_CASE("one changed pixel contradicts the field that it decides and is reported with its scene and position") {
     const DeviceProfile& device = *pipeline::find_profile("llvmpipe");
     ProbePack pack = answer(device, kit(), {YDirection::up});

@@ -43,13 +43,13 @@ TEST_CASE("every probed field belongs to a group except the guard band which has
     }
 }
 
-TEST_CASE("scenes of the kit have unique names and whole triangles and sides of 8 to 256 pixels") {
+TEST_CASE("scenes of the kit have unique names and whole triangles and sides of 8 to 512 pixels") {
     std::set<std::string> names;
     for (const Item& item : kit()) {
         INFO(item.name);
         CHECK(names.insert(item.name).second);
         CHECK(std::min(item.width, item.height) >= 8);
-        CHECK(std::max(item.width, item.height) <= 256);
+        CHECK(std::max(item.width, item.height) <= 512);
         for (const Draw& draw : item.draws) {
             CHECK(!draw.corners.empty());
             CHECK(draw.corners.size() % 3 == 0);

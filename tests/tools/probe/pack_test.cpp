@@ -151,6 +151,36 @@ TEST_CASE("depths read by a shader are converted to the nearest codes") {
         CHECK(read.answers.at(YDirection::up).at(name).answer == written.answers.at(YDirection::up).at(name).answer);
 }
 
+TEST_CASE("answers with a missing picture or a link or another version are rejected by name") {
+    const strata::test::OwnFolder folder;
+    const std::vector<Item> items = some_items();
+    const ProbePack written = answer(*pipeline::find_profile("llvmpipe"), items, {YDirection::up});
+    const std::string path = folder.path() + "/pack", picture = path + "/probe/up/depth.d24/color.npy";
+    const auto message = [&]() -> std::string {
+        try {
+            static_cast<void>(read_pack(path, items));
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    write_pack(written, items, path);
+    CHECK(message() == "");
+    std::filesystem::rename(picture, folder.path() + "/elsewhere.npy");
+    CHECK(message() == path + ": probe/up/depth.d24/color.npy: expected the picture of a scene, or the reason in " +
+                           "/probe/missing why there is none, found neither");
+    std::filesystem::create_symlink(folder.path() + "/elsewhere.npy", picture);
+    CHECK(message() == path + ": probe/up/depth.d24/color.npy: expected a file inside this folder, found a link");
+    std::filesystem::remove(picture);
+    std::filesystem::rename(folder.path() + "/elsewhere.npy", picture);
+    std::ifstream file{path + "/candidate.json"};
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string version = "\"version\": 1";
+    REQUIRE(text.find(version) != std::string::npos);
+    write_text(path + "/candidate.json", text.replace(text.find(version), version.size(), "\"version\": 2"));
+    CHECK(message() == path + "/candidate.json: /version: expected 1, the version that this program reads, found 2");
+}
+
 TEST_CASE("answers to another kit are rejected because its digest differs") {
     const strata::test::OwnFolder folder;
     std::vector<Item> items = some_items();

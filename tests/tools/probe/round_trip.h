@@ -5,6 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 
 #include "tools/probe/draw_item.h"
 #include "tools/probe/infer.h"
@@ -13,6 +15,14 @@
 #include "tools/probe/random_profile.h"
 
 namespace strata::probe {
+
+// The number behind NAME= among the arguments.
+inline int setting(int argc, char** argv, const char* name, int otherwise) {
+    const std::size_t length = std::strlen(name);
+    for (int i = 1; i < argc; ++i)
+        if (std::strncmp(argv[i], name, length) == 0 && argv[i][length] == '=') return std::atoi(argv[i] + length + 1);
+    return otherwise;
+}
 
 struct RoundTrip {
     DeviceProfile truth{};

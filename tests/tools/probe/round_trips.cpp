@@ -1,24 +1,10 @@
 // Infers random profiles from their answers: probe_round_trips [first=0] [count=200] [unseen=100]. Prints a line per
 // profile with the fields that differ, true and found value; exits with status 1 if an inferred profile draws one of 20
 // unseen scenes, starting at number `unseen`, differently.
-#include <cstdlib>
-#include <cstring>
-
 #include "rasterizer/base/numerics.h"
 #include "tests/tools/probe/round_trip.h"
 
 using namespace strata::probe;
-
-namespace {
-
-int setting(int argc, char** argv, const char* name, int otherwise) {
-    const std::size_t length = std::strlen(name);
-    for (int i = 1; i < argc; ++i)
-        if (std::strncmp(argv[i], name, length) == 0 && argv[i][length] == '=') return std::atoi(argv[i] + length + 1);
-    return otherwise;
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
     const int first = setting(argc, argv, "first", 0), count = setting(argc, argv, "count", 200);

@@ -17,7 +17,7 @@ namespace {
 std::optional<DeviceProfile> turned(const DeviceProfile& profile, const ProfileField& f) {
     DeviceProfile other = profile;
     f.set(other, f.value(profile) == f.lowest ? f.highest : f.lowest);
-    if (f.key == "raster.guard_band_px") f.set(other, 256 + f.value(profile) / 2);
+    if (f.key == "raster.guard_band_px") f.set(other, 512 + f.value(profile) / 2);
     if (!is_valid(other)) return std::nullopt;
     return other;
 }
