@@ -7,7 +7,6 @@
 
 #include "rasterizer/base/enum_values.h"
 #include "scenes/packs/pack_files.h"
-#include "tools/probe/operations.h"
 
 namespace strata::probe {
 
@@ -86,13 +85,9 @@ const std::vector<Item>& kit() {
     return items;
 }
 
-std::string to_json(const std::vector<Item>& items, bool with_operations) {
-    ordered_json document{
+std::string to_json(const std::vector<Item>& items) {
+    const ordered_json document{
         {"format", "strata-kit"}, {"version", 1}, {"digest", digest(items)}, {"items", items_json(items)}};
-    if (with_operations) {
-        document["operations_digest"] = operations_digest();
-        document["operations"] = operations_json();
-    }
     return document.dump(1) + "\n";
 }
 

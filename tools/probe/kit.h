@@ -21,13 +21,13 @@ namespace strata::probe {
 [[nodiscard]] std::vector<Item> unseen_scenes(int first, int count);
 
 // {"format": "strata-kit", "version": 1, "digest": "...", "items": [...]}: floats are the 8 hexadecimal digits of their
-// bits. With operations: their list as "operations", its digest as "operations_digest".
-[[nodiscard]] std::string to_json(const std::vector<Item>& items, bool with_operations = false);
+// bits.
+[[nodiscard]] std::string to_json(const std::vector<Item>& items);
 // Digest of the array of items as JSON without spaces, by which a pack identifies the kit that it answers.
 [[nodiscard]] std::string digest(const std::vector<Item>& items);
 
 // An HTML page that draws these items with WebGL 2 and offers the answers as an archive; it loads no other file.
-[[nodiscard]] std::string page_of(const std::vector<Item>& items, bool with_operations = false);
+[[nodiscard]] std::string page_of(const std::vector<Item>& items);
 
 // The reaches of the triangles that determine the guard band, in pixels: each is a twenty-fourth larger than the
 // previous one.

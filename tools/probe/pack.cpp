@@ -15,7 +15,6 @@
 #include "tools/probe/archive.h"
 #include "tools/probe/draw_item.h"
 #include "tools/probe/kit.h"
-#include "tools/probe/operations_pack.h"
 
 namespace strata::probe {
 
@@ -109,8 +108,6 @@ ordered_json refusals(const ProbePack& pack) {
     for (const auto& [y, answers] : pack.answers)
         for (const auto& [item, reply] : answers)
             if (!reply.answer) all[fmt::format("{}/{}", name(y), item)] = reply.refusal;
-    for (const auto& [operation, reply] : pack.operations)
-        if (!reply.texels) all["operations/" + operation] = reply.refusal;
     return all;
 }
 
@@ -139,11 +136,7 @@ void write_pack(const ProbePack& pack, const std::vector<Item>& items, const std
             place.write(file_name(y, item, "color"), scenes::to_npy(oracle::as_array(answer.color)));
             if (answer.depth) place.write(file_name(y, item, "depth"), scenes::to_npy(oracle::as_array(*answer.depth)));
         }
-    for (const Operation& o : operations())
-        if (const auto found = pack.operations.find(o.name); found != pack.operations.end() && found->second.texels)
-            place.write(operation_file(o.name), scenes::to_npy(as_array(o, *found->second.texels)));
-    ordered_json probe{{"kit", pack.kit_digest}, {"device", pack.device}, {"missing", refusals(pack)}};
-    if (!pack.operations.empty()) probe["operations"] = operations_digest();
+    const ordered_json probe{{"kit", pack.kit_digest}, {"device", pack.device}, {"missing", refusals(pack)}};
     const ordered_json document{
         {"format", "strata-candidate"}, {"version", answers_version}, {"made_by", pack.made_by}, {"probe", probe}};
     place.write("candidate.json", document.dump(1) + "\n");
@@ -182,7 +175,6 @@ ProbePack read_pack(const std::string& path, const std::vector<Item>& items) {
                 pack.answers[y][item.name] = {.answer = std::nullopt, .refusal = missing[key].get<std::string>()};
         }
     check_complete(pack, items, path);
-    pack.operations = read_operations(probe, files, path);
     return pack;
 }
 

@@ -11,7 +11,6 @@
 
 #include "pipeline/device/profile.h"
 #include "tools/probe/item.h"
-#include "tools/probe/operations.h"
 
 namespace strata::probe {
 
@@ -28,8 +27,6 @@ struct ProbePack {
     nlohmann::ordered_json device = nlohmann::ordered_json::object();
     // By the item's name, for each orientation that was drawn.
     std::map<YDirection, Answers> answers{};
-    // Empty in a pack from before operations existed, and in answers to other scenes than the kit.
-    OperationReplies operations{};
 };
 
 // The answers of the profile's device to all items.

@@ -13,11 +13,10 @@ void put(std::string& page, std::string_view mark, std::string_view text) {
 }  // namespace
 
 // A kit contains no '</' that could end the element that contains it.
-std::string page_of(const std::vector<Item>& items, bool with_operations) {
+std::string page_of(const std::vector<Item>& items) {
     std::string page{probe_html()};
     put(page, "/*SCRIPT*/", probe_js());
-    put(page, "/*OPERATIONS*/", operations_js());
-    put(page, "/*KIT*/", to_json(items, with_operations));
+    put(page, "/*KIT*/", to_json(items));
     return page;
 }
 

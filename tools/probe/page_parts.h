@@ -6,6 +6,5 @@ namespace strata::probe {
 
 [[nodiscard]] std::string_view probe_html();
 [[nodiscard]] std::string_view probe_js();
-[[nodiscard]] std::string_view operations_js();
 
 }  // namespace strata::probe

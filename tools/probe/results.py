@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures drivers and writes two pages: results.py BUILD [-o RESULTS.md] [--whole build/probe/RESULTS.md] [--browser FOLDER]
 
-RESULTS.md is introduction.md and a row for each device; the whole page has every operation and every field of a profile with its evidence.
+RESULTS.md is introduction.md and a row for each device; the whole page has every field of a profile with its evidence.
 BUILD has strata and strata_port_probe (-DSTRATA_PORT=ON). FOLDER is the folder STRATA_KEEP of tests/browser/probe_page.py. Each device renders the
 kit and twenty other scenes; its profile is inferred only from the kit, and predicts the twenty.
 """
@@ -68,71 +68,26 @@ def details(name, orientation, found):
     return lines + [""]
 
 
-def operation_cell(found):
-    """The best hypothesis and its count, or the reason why there is no result."""
-    if not found["hypotheses"]:
-        return found["reason"]
-    best = found["hypotheses"][0]
-    if found["state"] == "inferred":
-        return f"{best['hypothesis']} ({found['places']:,})"
-    whole = [h["hypothesis"] for h in found["hypotheses"] if h["agree"] == found["places"]]
-    if whole:
-        return f"open: {' or '.join(whole)} ({found['places']:,})"
-    return f"**{best['agree']:,} of {found['places']:,}**: {best['hypothesis']}; {best['furthest']:,} apart at most"
-
-
-def operations(devices):
-    """A row for each operation, a column for each device, and the first counterexamples."""
-    names = [name for name, _ in devices]
-    lines = ["| operation | " + " | ".join(names) + " |", "|---" * (len(names) + 1) + "|"]
-    for rows in zip(*(found for _, found in devices)):
-        lines.append(f"| {rows[0]['operation']} | " + " | ".join(operation_cell(f).replace("|", "\\|") for f in rows) + " |")
-    lines += ["", "Operations that no hypothesis explains, with the first counterexample to the best one:", ""]
-    for name, found in devices:
-        for f in found:
-            if f["state"] == "broken":
-                first = f["hypotheses"][0]["first"]
-                lines.append(f"- {name}, {f['operation']}: result {first['texel']} of {', '.join(first['inputs'][:3])} should be {first['expected']}, is {first['found']}.")
-    return lines
-
-
-def operation_rows(operated):
-    """For each device: the number of operations that one hypothesis explains completely."""
-    yield "| device | operations tested | explained by one hypothesis | not explained |"
-    yield "|---|---:|---:|---|"
-    for name, found in operated:
-        drawn = [f for f in found if f["hypotheses"]]
-        broken = [f["operation"] for f in drawn if f["state"] == "broken"]
-        yield f"| {name} | {len(drawn)} | {len(drawn) - len(broken)} | {', '.join(broken) or 'none'} |"
-
-
 DEVICE_HEAD = ["| device | +y | fields inferred | pixels of the kit that agree | pixels of 20 other scenes | coverage differs | depth differs | colour differs |",
                "|---|---|---|---|---|---|---|---|"]
 HOW = """
-Operations of shaders, textures and tests, each compared with several hypotheses:
-
-{operations}
-
 ## The whole table
 
     tools/probe/results.py build/release --browser ANSWERS
 
 The command needs `strata_port_probe` (`-DSTRATA_PORT=ON`); ANSWERS is the folder STRATA_KEEP of `tests/browser/probe_page.py`. It also writes
-`build/probe/RESULTS.md` with the best hypothesis of each operation and its first counterexample, and each field of each profile with its evidence
-and the next best values.
+`build/probe/RESULTS.md` with each field of each profile, its evidence and the next best values.
 """
 
 
-def write_pages(short, whole, rows, operated, pages):
+def write_pages(short, whole, rows, pages):
     with open(os.path.join(HERE, "introduction.md"), encoding="utf-8") as file:
         head = file.read()
     with open(short, "w", encoding="utf-8") as file:
-        file.write("\n".join([head, *DEVICE_HEAD, *rows, HOW.format(operations="\n".join(operation_rows(operated)))]))
+        file.write("\n".join([head, *DEVICE_HEAD, *rows, HOW]))
     os.makedirs(os.path.dirname(os.path.abspath(whole)), exist_ok=True)
     with open(whole, "w", encoding="utf-8") as file:
-        file.write("\n".join(["# The probe kit on software drivers, field by field", "", *DEVICE_HEAD, *rows, "", "## Operations", "",
-                              "The best hypothesis and the number of results, all of which it explains; in bold the number that it explains where none explains all.", "",
-                              *operations(operated), "", "## Field by field", "", *pages]))
+        file.write("\n".join(["# The probe kit on software drivers, field by field", "", *DEVICE_HEAD, *rows, "", "## Field by field", "", *pages]))
 
 
 def main():
@@ -143,7 +98,7 @@ def main():
     parser.add_argument("--browser")
     options = parser.parse_args()
     strata, client = (os.path.join(options.build, name) for name in ("strata", "strata_port_probe"))
-    rows, pages, operated = [], [], []
+    rows, pages = [], []
     with tempfile.TemporaryDirectory() as folder:
         kit, unseen = os.path.join(folder, "kit"), os.path.join(folder, "unseen")
         checked(strata, "probe", "-o", kit)
@@ -160,10 +115,8 @@ def main():
         for name, orientation, *answers in devices:
             found, scenes = measured(strata, *answers, orientation, folder)
             rows.append(row(name, orientation, found, scenes))
-            if orientation == "down":
-                operated.append((name, found["operations"]))
             pages += details(name, orientation, found)
-    write_pages(options.output, options.whole, rows, operated, pages)
+    write_pages(options.output, options.whole, rows, pages)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,6 @@
 #include "scenes/files/profile_json.h"
 #include "tools/lab/commands.h"
 #include "tools/lab/probe/items.h"
-#include "tools/lab/probe/operations_table.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/table.h"
 
@@ -130,10 +129,7 @@ int run(const InferOptions& options) {
     for (const FieldFinding& f : result.fields)
         if (f.state == FieldState::open) open.push_back(f.key);
     if (!options.output.empty()) scenes::write_file(options.output, scenes::to_json(result.profile, open));
-    const std::vector<probe::OperationFinding> findings = probe::judge(pack.operations);
-    ordered_json document = options.json ? to_json(result) : ordered_json{};
-    if (options.json) document["operations"] = operations_json(findings);
-    const std::string told = options.json ? document.dump(1) + "\n" : to_text(result) + operations_text(findings);
+    const std::string told = options.json ? to_json(result).dump(1) + "\n" : to_text(result);
     scenes::is_standard_output(options.output) ? say_note(told) : print(told);
     return 0;
 }

@@ -70,10 +70,10 @@ int compare(const ProbeOptions& options, const std::vector<probe::Item>& items) 
     return sum.is_none() ? 0 : 1;
 }
 
-void write_kit(const std::vector<probe::Item>& items, bool with_operations, const std::string& folder) {
+void write_kit(const std::vector<probe::Item>& items, const std::string& folder) {
     scenes::NewFolder place{folder};
-    place.write("kit.json", probe::to_json(items, with_operations));
-    place.write("probe.html", probe::page_of(items, with_operations));
+    place.write("kit.json", probe::to_json(items));
+    place.write("probe.html", probe::page_of(items));
     place.keep();
 }
 
@@ -86,7 +86,7 @@ int run(const ProbeOptions& options) {
     if (options.output.empty()) throw CLI::ValidationError("-o is missing: the folder for the kit or the answers");
     scenes::check_new_folder(options.output);
     if (options.profile.empty()) {
-        write_kit(items, options.unseen == 0, options.output);
+        write_kit(items, options.output);
         if (!is_quiet())
             print(fmt::format(
                 "{0}: kit.json and probe.html, {1} scenes. Open probe.html on the device, or draw kit.json there;\n"
@@ -95,8 +95,7 @@ int run(const ProbeOptions& options) {
     } else {
         const pipeline::DeviceProfile profile = scenes::load_profile(options.profile);
         const auto& both = enum_values<probe::YDirection>;
-        probe::ProbePack pack = answer(profile, items, {both.begin(), both.end()});
-        if (options.unseen == 0) pack.operations = probe::answer_operations();
+        const probe::ProbePack pack = answer(profile, items, {both.begin(), both.end()});
         write_pack(pack, items, options.output);
         if (!is_quiet())
             print(fmt::format("{}: the answers of {} to {} scenes\n", options.output, profile.name, items.size()));

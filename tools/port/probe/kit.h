@@ -41,8 +41,6 @@ struct Kit {
     std::string digest;
     std::vector<KitItem> items;
     // As in the file, with their digest; an empty array and no digest if the file has none.
-    nlohmann::json operations = nlohmann::json::array();
-    std::string operations_digest;
 };
 
 // The words of a text of hexadecimal digits, 8 per word.

@@ -12,7 +12,6 @@
 #include "tools/port/context.h"
 #include "tools/port/npy.h"
 #include "tools/port/probe/kit.h"
-#include "tools/port/probe/operations.h"
 #include "tools/port/probe/painter.h"
 #include "tools/port/probe/samples.h"
 
@@ -86,20 +85,6 @@ void answer_alpha_tests(const Kit& kit, const std::string& driver, const fs::pat
     }
 }
 
-// Operations are drawn with +y down, as in the page.
-void answer_operations(const Kit& kit, const fs::path& folder, ordered_json& missing) {
-    glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
-    if (!kit.operations.empty()) fs::create_directories(folder);
-    for (const nlohmann::json& described : kit.operations) {
-        const std::string name = described.at("name").get<std::string>();
-        try {
-            write_npy(folder / (name + ".npy"), draw_operation(described));
-        } catch (const std::exception& error) {
-            missing["operations/" + name] = error.what();
-        }
-    }
-}
-
 // The requested multisampled answers, by number of samples.
 void answer_multisampled(const Kit& kit, const std::vector<int>& numbers, const fs::path& folder) {
     if (numbers.empty()) return;
@@ -119,10 +104,8 @@ int run(const Options& options) {
     answer_alpha_tests(kit, options.driver, made / "probe", missing);
     const HeadlessContext context(options.driver, 2);
     answer_items(kit, false, made / "probe");
-    answer_operations(kit, made / "probe" / "operations", missing);
     answer_multisampled(kit, options.samples, made / "samples");
-    ordered_json probe{{"kit", kit.digest}, {"device", device()}, {"missing", missing}};
-    if (!kit.operations_digest.empty()) probe["operations"] = kit.operations_digest;
+    const ordered_json probe{{"kit", kit.digest}, {"device", device()}, {"missing", missing}};
     const ordered_json document{{"format", "strata-candidate"},
                                 {"version", 1},
                                 {"made_by", "strata_port_probe, " + context.renderer()},

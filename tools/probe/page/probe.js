@@ -228,13 +228,12 @@ const nextFrame = () => new Promise((resolve) => setTimeout(resolve, 0));
 
 async function measure() {
   const kit = JSON.parse(element('kit').textContent);
-  const device = makeDevice(), entries = [], missing = {}, works = kit.operations || [], count = kit.items.length + works.length;
+  const device = makeDevice(), entries = [], missing = {}, count = kit.items.length;
   element('progress').max = count;
-  for (const [number, item] of [...kit.items, ...works].entries()) {
-    const isWork = number >= kit.items.length, place = `${isWork ? 'operations' : orientation}/${item.name}`;
+  for (const [number, item] of kit.items.entries()) {
+    const place = `${orientation}/${item.name}`;
     try {
-      if (isWork) entries.push(tarEntry(`probe/${place}.npy`, answerOperation(device, item)));
-      else for (const [name, bytes] of Object.entries(answer(device, item))) entries.push(tarEntry(`probe/${place}/${name}`, bytes));
+      for (const [name, bytes] of Object.entries(answer(device, item))) entries.push(tarEntry(`probe/${place}/${name}`, bytes));
     } catch (error) {
       missing[place] = error.message;
       const row = element('reasons').insertRow();
@@ -247,7 +246,7 @@ async function measure() {
     await nextFrame();
   }
   const candidate = { format: 'strata-candidate', version: 1, made_by: `strata probe page, ${rendererOf(device.gl)}`,
-    probe: { kit: kit.digest, device: featuresOf(device), missing, operations: kit.operations_digest } };
+    probe: { kit: kit.digest, device: featuresOf(device), missing } };
   entries.push(tarEntry('candidate.json', new TextEncoder().encode(JSON.stringify(candidate, null, 1))), new Uint8Array(1024));
   element('download').href = URL.createObjectURL(new Blob(entries, { type: 'application/x-tar' }));
   element('offer').hidden = false;
