@@ -78,8 +78,7 @@ Kit read_kit(const std::string& folder) {
         const json document = json::parse(stream);
         if (document.at("format") != "strata-kit" || document.at("version") != 1)
             throw std::runtime_error("expected a kit of version 1");
-        Kit kit{
-            .digest = document.at("digest").get<std::string>(), .items = {}};
+        Kit kit{.digest = document.at("digest").get<std::string>(), .items = {}};
         for (const json& item : document.at("items")) kit.items.push_back(item_of(item));
         return kit;
     } catch (const std::exception& error) {
