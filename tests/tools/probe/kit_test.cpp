@@ -57,6 +57,23 @@ TEST_CASE("scenes of the kit have unique names and whole triangles and sides of 
     }
 }
 
+TEST_CASE("the digest of a kit changes with a name or a side or a corner of a scene and with a scene less") {
+    const std::vector<Item> all = kit();
+    const std::string before = digest(all);
+    CHECK(before == digest(kit()));
+    std::set<std::string> digests{before};
+    const auto change = [&](auto&& alter) {
+        std::vector<Item> items = all;
+        alter(items);
+        CHECK(digests.insert(digest(items)).second);
+    };
+    change([](auto& items) { items.back().name += "2"; });
+    change([](auto& items) { ++items.back().width; });
+    change([](auto& items) { items.pop_back(); });
+    change([](auto& items) { std::swap(items[0], items[1]); });
+    change([](auto& items) { items[0].draws[0].corners.pop_back(); });
+}
+
 TEST_CASE("the JSON of a kit has the bits of every corner in the order of the vertex attributes") {
     const nlohmann::json document = nlohmann::json::parse(to_json(kit()));
     REQUIRE(document["items"].size() == kit().size());
