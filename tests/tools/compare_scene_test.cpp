@@ -19,7 +19,9 @@ TEST_CASE("compare with a scene accepts a correct picture in any format and orde
         const CommandResult found = run_strata(folder, {"compare", "teapot", picture, "--background", "0.2,0.3,0.5"});
         INFO(picture << found.out << found.err);
         CHECK(found.status == 0);
-        CHECK(found.out.starts_with("right: structure exact at all 1728 pixels; rounding at most "));
+        const bool has_lost_ties = picture == "a.front_to_back.png";  // as its own picture has
+        CHECK(found.out.starts_with(has_lost_ties ? "right: equal to the picture of front_to_back at all 1728 pixels\n"
+                                                  : "right: structure exact at all 1728 pixels; rounding at most "));
     }
 }
 
@@ -73,7 +75,7 @@ TEST_CASE("a picture that is correct under another profile is accepted and that 
     const CommandResult right = run_strata(folder, {"compare", scene, "a.exr", "--report", "page.html"});
     INFO(right.out << right.err);
     CHECK(right.status == 0);
-    CHECK(right.out.starts_with("right: structure exact at all 1728 pixels; "));
+    CHECK(right.out.starts_with("right: structure exact at 1704 of 1728 pixels, 24 excused: 24 where fragments of "));
     CHECK(right.out.find("\n  by the rules of profile softpipe; by those of geforce8 it would be wrong at ") !=
           std::string::npos);
     CHECK(content_of(folder / "page.html").find("by the rules of profile softpipe") != std::string::npos);

@@ -15,6 +15,7 @@
 #include "tools/oracle/drawings.h"
 #include "tools/oracle/pack/compare_packs.h"
 #include "tools/oracle/report.h"
+#include "tools/oracle/stored_like.h"
 #include "tools/strata/command.h"
 #include "tools/strata/compare_pages.h"
 #include "tools/strata/compare_scene.h"
@@ -128,13 +129,22 @@ std::vector<std::string> names_of_targets(const std::vector<oracle::PackPictures
 }
 
 // Compares a pack with a port's output folder: the final picture and all passes of every algorithm that both contain.
+bool is_linear(const CompareOptions& options) {
+    return options.run.scene_options.color_space == pipeline::ColorSpace::linear;
+}
+
 int compare_folders(const CompareOptions& options) {
     if (!options.background.empty())
         throw CLI::ValidationError(
             "--background goes with a picture as the candidate; of a folder compare its picture.npy");
-    const auto reference = chosen(oracle::expected_pictures(options.reference), options.algorithm);
+    auto reference = chosen(oracle::expected_pictures(options.reference), options.algorithm);
     const auto candidate = chosen(oracle::candidate_pictures(options.reference, options.candidate), options.algorithm);
     check_targets(options.tolerances, names_of_targets(reference));
+    if (is_linear(options))
+        for (oracle::PackPictures& own : reference)
+            for (const oracle::PackPictures& other : candidate)
+                if (own.algorithm == other.algorithm)
+                    own.picture = stored_like(own.picture, other.picture, pipeline::ColorSpace::linear);
     const auto found = oracle::compare_packs(reference, candidate, options.tolerances);
     if (std::ranges::none_of(found, &oracle::PackComparison::is_there))
         throw InputError(options.candidate, "has pictures of none of the pack's algorithms");
@@ -177,9 +187,11 @@ int compared(const CompareOptions& options) {
                                    has_alpha},
                                   picture);
     }
-    const oracle::Picture reference = reference_of(options);
+    oracle::Picture reference = reference_of(options);
     oracle::Picture candidate = oracle::read_picture(options.candidate, options.layout);
     state_alpha(candidate, options.alpha_form);
+    if (is_linear(options) && is_scene(options.reference))
+        reference = stored_like(reference, candidate, pipeline::ColorSpace::linear);
     check_targets(options.tolerances, names_of_targets(reference));
     // Pictures of different sizes are an error, but both can be seen.
     if (reference.targets[0].width != candidate.targets[0].width ||

@@ -256,6 +256,37 @@ int compare_resolved(const SceneQuestion& question, const Session& session, cons
 
 }  // namespace
 
+namespace {
+
+oracle::verdict::PictureVerdict judged(const SceneQuestion& question, const oracle::RunInput& input,
+                                       const oracle::Target& colors) {
+    return oracle::verdict::judge_picture(
+        input, {.colors = colors,
+                .is_form_stated = question.is_form_stated,
+                .has_alpha = question.has_alpha,
+                .is_frame_linear = question.run.scene_options.color_space == pipeline::ColorSpace::linear,
+                .algorithm = question.algorithm.empty() ? nullptr : question.run.algorithms[0]});
+}
+
+// Whether a picture with decoded colours, or blended in linear light, is right with --color-space linear.
+std::string if_linear(SceneQuestion question, const oracle::verdict::Verdict& found, const oracle::Picture& candidate) {
+    const oracle::Target& colors = colors_of(candidate);
+    using oracle::verdict::RuleKind;
+    const auto is_of_light = [](const oracle::verdict::CheckedAccount& c) {
+        return c.account.rules[0].kind == RuleKind::decoded || c.account.rules[0].kind == RuleKind::blended_linear;
+    };
+    if (question.run.scene_options.color_space == pipeline::ColorSpace::linear || scenes::is_pack(question.run.scene) ||
+        std::ranges::none_of(found.explanations, is_of_light))
+        return "";
+    question.run.scene_options.color_space = pipeline::ColorSpace::linear;
+    const Session session = open_at_size(question, colors, candidate.file);
+    const oracle::RunInput input{session.scene.list,  session.view, session.profile,
+                                 question.run.render, {},           pipeline::ColorSpace::linear};
+    return judged(question, input, colors).is_right() ? "  with --color-space linear the picture is right\n" : "";
+}
+
+}  // namespace
+
 int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate) {
     const oracle::Target& colors = colors_of(candidate);
     const Session session = open_at_size(question, colors, candidate.file);
@@ -263,12 +294,8 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
     const pipeline::DrawList& list = session.scene.list;
     const oracle::RunInput input{
         list, session.view, session.profile, question.run.render, {}, question.run.scene_options.color_space};
-    oracle::verdict::PictureVerdict verdict = oracle::verdict::judge_picture(
-        input, {.colors = colors,
-                .is_form_stated = question.is_form_stated,
-                .has_alpha = question.has_alpha,
-                .is_frame_linear = question.run.scene_options.color_space == pipeline::ColorSpace::linear,
-                .algorithm = question.algorithm.empty() ? nullptr : question.run.algorithms[0]});
+    oracle::verdict::PictureVerdict verdict = judged(question, input, colors);
+    verdict.reading += if_linear(question, verdict.found, candidate);
     verdict.found.distinguishing_command = distinguishing_command(verdict.found);
     const std::vector<std::string> forgotten = oracle::forgotten_options(input, verdict, camera_in_words(question.run));
     const std::string text = oracle::with_forgotten(to_text(verdict, list), forgotten);

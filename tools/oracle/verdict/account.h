@@ -22,21 +22,25 @@ struct CheckedAccount {
     Account account{};
     std::uint64_t pixels = 0, covered = 0;  // covered: those with a visible fragment
     Ties ties{};
-    bool has_one_tie_rule = true;  // false: no single rule for fragments of equal depth fits all pixels
-    std::uint64_t tied = 0;        // pixels whose value depends on the rule for equal depths
-    std::uint64_t at_edges = 0;    // pixels that only a rasterizer with other snapping or another tie rule can have
-    std::uint64_t edges = 0;       // pixels that another rasterizer may cover otherwise
-    std::uint64_t changed = 0;     // pixels whose structure differs from the right one
-    std::uint64_t undecided = 0;   // of these, pixels whose value the right structure also reaches
+    bool has_one_tie_rule = true;    // false: no single rule for fragments of equal depth fits all pixels
+    std::uint64_t tied = 0;          // pixels whose value depends on the rule for equal depths
+    std::uint64_t at_edges = 0;      // pixels that only a rasterizer with other snapping or another tie rule can have
+    std::uint64_t edges = 0;         // pixels that another rasterizer may cover otherwise
+    std::uint64_t lost_at_ties = 0;  // pixels that lack, or merge, fragments of one depth
+    std::uint64_t changed = 0;       // pixels whose structure differs from the right one
+    std::uint64_t undecided = 0;     // of these, pixels whose value the right structure also reaches
     // Distance from the structure's exact result, in codes (floats: in 1/255): the largest in the picture, and the
     // largest that the hypothesis allows.
     double observed = 0, possible = 0;
-    double needed = 0;  // the largest distance from the middle of what the hypothesis allows, in the same unit
-    double bits = 0;    // sum over the pixels that are not wrong (pricing.h)
+    // The largest distance from the middle of what the hypothesis allows, in the same unit, and the number of pixels at
+    // which it is more than so many layers need.
+    double needed = 0;
+    std::uint64_t needing_many = 0;
+    double bits = 0;                            // sum over the pixels that are not wrong (pricing.h)
     std::vector<std::uint32_t> wrong_pixels{};  // row-major, ascending
     [[nodiscard]] bool is_whole() const noexcept { return wrong_pixels.empty(); }
     // Pixels at which the given fragments alone do not give the value.
-    [[nodiscard]] std::uint64_t excused() const noexcept { return at_edges; }
+    [[nodiscard]] std::uint64_t excused() const noexcept { return at_edges + lost_at_ties; }
 };
 // Rules that explain only some of the wrong pixels.
 struct Lead {

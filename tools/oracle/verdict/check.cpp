@@ -5,6 +5,8 @@
 #include <limits>
 #include <mutex>
 
+#include "scenes/numbers/srgb_encode.h"
+#include "tools/oracle/verdict/doubt.h"
 #include "tools/oracle/verdict/match.h"
 #include "tools/oracle/verdict/pricing.h"
 
@@ -17,11 +19,13 @@ double exact_over(const Layer& layer, std::size_t c, double behind) noexcept {
     return (layer.is_premultiplied ? color : alpha * color) + (1 - alpha) * behind;
 }
 
-// Exact OVER in binary64.
+// Exact OVER in binary64, encoded if the picture is.
 std::array<double, 3> exact(const Stack& stack) noexcept {
     std::array<double, 3> color{stack.background[0], stack.background[1], stack.background[2]};
     for (std::size_t i = stack.layers.size(); i-- > 0;)
         for (std::size_t c = 0; c < 3; ++c) color[c] = exact_over(stack.layers[i], c, color[c]);
+    if (stack.is_linear || stack.finish == Finish::encoded)
+        for (double& v : color) v = double{scenes::encode_srgb(static_cast<float>(v))};
     return color;
 }
 
@@ -34,6 +38,7 @@ void measure(const Stack& stack, const ReachableColor& reach, const std::array<d
              CheckedAccount& found) {
     const std::array<double, 3> truth = exact(stack);
     const double levels = levels_of(storage);
+    double needed = 0;
     const auto as_code = [&](double v) {
         return has_codes(storage) ? std::floor(std::clamp(v, 0.0, 1.0) * levels + 0.5) : v * levels;
     };
@@ -44,13 +49,23 @@ void measure(const Stack& stack, const ReachableColor& reach, const std::array<d
             {found.possible, std::fabs(as_code(reach[c].low) - wanted), std::fabs(as_code(reach[c].high) - wanted)});
         // An interval that ends at 0 or 1 may be cut there.
         if (reach[c].low > 0 && reach[c].high < 1)
-            found.needed = std::max(found.needed, std::fabs(value[c] - (reach[c].low + reach[c].high) / 2) * levels);
+            needed = std::max(needed, std::fabs(value[c] - (reach[c].low + reach[c].high) / 2) * 255);
     }
+    found.needed = std::max(found.needed, needed);
+    found.needing_many += needed > most_codes(stack.layers.size()) + 0.5 ? 1 : 0;
 }
 
 // Limit per tile of the wrong pixels and pixels at edges that are returned as examples, from which the next hypothesis
 // is chosen.
 constexpr std::size_t most_examples = 64;
+
+// The rules for ties that keep all fragments of one depth.
+constexpr TieMask of_rule(TieRule rule) {
+    const TieMask bit = TieMask{1} << static_cast<unsigned>(rule);
+    return bit | bit << tie_rule_count;
+}
+constexpr TieMask keeping_ties =
+    of_rule(TieRule::first) | of_rule(TieRule::last) | of_rule(TieRule::first_then_last) | TieMask{1} << ties_count;
 
 // The result for one tile.
 struct PartChecked {
@@ -95,6 +110,7 @@ class Checker {
         found.tied += mask != all_ties ? 1 : 0;
         part.everywhere &= mask;
         found.at_edges += way.at_edge ? 1 : 0;
+        found.lost_at_ties += !way.at_edge && (mask & keeping_ties) == 0 ? 1 : 0;
         if (way.at_edge && part.examples.pixels().size() < most_examples) part.examples.add(list, value);
         const Stack& stack = maker.with(account_.rules, way.list, way.ties, way.is_moved);
         const ReachableColor reach = compositor_.reach(stack);
@@ -126,6 +142,8 @@ void merge(const CheckedAccount& part, CheckedAccount& all) {
     all.covered += part.covered;
     all.tied += part.tied;
     all.at_edges += part.at_edges;
+    all.lost_at_ties += part.lost_at_ties;
+    all.needing_many += part.needing_many;
     all.edges += part.edges;
     all.needed = std::max(all.needed, part.needed);
     all.changed += part.changed;

@@ -173,8 +173,14 @@ void StackMaker::set_background(const Rule& rule, const PixelList& pixel) {
             ++stack_.near_without_middle;
             break;
         }
+        case RuleKind::decoded:
+            if (rule.n == 2 || (rule.n == 1 && pixel.has_opaque))
+                stack_.background = with_each(stack_.background, scenes::decode_srgb);
+            break;
         case RuleKind::picture_encoded: stack_.finish = Finish::encoded; break;
-        case RuleKind::picture_decoded: stack_.finish = Finish::decoded; break;
+        case RuleKind::picture_decoded:
+            stack_.finish = setting_->stored == Stored::encoded ? Finish::as_is : Finish::decoded;
+            break;
         case RuleKind::background_twice: {
             Rgba again = pixel.behind;
             again[3] = 0;

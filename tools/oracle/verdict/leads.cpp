@@ -27,7 +27,7 @@ std::vector<bool> reached(std::span<const SplitPixel* const> pixels, const Rules
 // pixels that contradict it.
 std::vector<Lead> leads_of(const std::vector<Rules>& all, const SplitSample& parts, const Hypothesis& hypothesis,
                            const Setting& setting) {
-    constexpr std::size_t most_leads = 6, most_looked_at = 1024;
+    constexpr std::size_t most_leads = 6, most_looked_at = 1024, least_share = 20;  // a twentieth
     const Compositor compositor{hypothesis};
     const auto wrong = thinned(parts.wrong, most_looked_at), right = thinned(parts.right, most_looked_at);
     std::vector<Lead> leads(all.size());
@@ -57,7 +57,7 @@ std::vector<Lead> leads_of(const std::vector<Rules>& all, const SplitSample& par
         }
         if (next == all.size()) break;
         for (std::size_t p = 0; p < wrong.size(); ++p) is_reported[p] = is_reported[p] || explained[next][p];
-        best.push_back(leads[next]);
+        if (leads[next].explained * least_share >= leads[next].of) best.push_back(leads[next]);
     }
     return best;
 }
@@ -66,8 +66,10 @@ std::vector<Lead> leads_of(const std::vector<Rules>& all, const SplitSample& par
 
 std::vector<Lead> leads(const SceneFragments& scene, const CheckedAccount& closest, const Sample& sample) {
     const Hypothesis& hypothesis = closest.account.hypothesis;
-    return leads_of(singles(rules_for(facts_of(scene, sample))), split_by_account(sample, hypothesis), hypothesis,
-                    scene.setting());
+    std::vector<Rule> rules = rules_for(facts_of(scene, sample));
+    // With few bits and a rounding that is not known, each of these explains nearly any picture.
+    std::erase_if(rules, [](const Rule& rule) { return rule.kind == RuleKind::few_bits; });
+    return leads_of(singles(rules), split_by_account(sample, hypothesis), hypothesis, scene.setting());
 }
 
 }  // namespace strata::oracle::verdict

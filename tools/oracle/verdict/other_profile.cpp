@@ -56,9 +56,20 @@ std::string OtherProfile::description(const std::string& given, std::size_t wron
     return verdict::description(rules, given, wrong_pixels);
 }
 
+std::optional<Verdict> right_narrowly(const SceneFragments& scene, const Colors& candidate) {
+    constexpr std::size_t most_sampled = 2048;
+    Sample sample = sampled(scene, candidate, most_sampled);
+    auto right = narrow_account(scene, candidate, sample);
+    if (!right) return std::nullopt;
+    Verdict verdict{
+        .is_right = true, .width = scene.width(), .facts = facts_of(scene, sample), .right = *std::move(right)};
+    verdict.alpha = check_alpha(scene, candidate, verdict.right.account.hypothesis);
+    verdict.is_right = verdict.alpha.state != AlphaState::wrong;
+    return verdict;
+}
+
 std::optional<OtherProfile> right_by_rules(const RunInput& input, OtherRules rules, const Colors& candidate,
                                            const std::vector<std::uint32_t>& wrong_pixels) {
-    constexpr std::size_t most_sampled = 2048;
     const std::uint64_t bytes = input.options.fragment_memory;
     OtherProfile other{.profile = std::make_unique<pipeline::DeviceProfile>(rules.profile), .fragments = nullptr};
     other.rules = std::move(rules);
@@ -71,20 +82,13 @@ std::optional<OtherProfile> right_by_rules(const RunInput& input, OtherRules rul
     } catch (const pipeline::Refused&) {
         return std::nullopt;
     }
-    Sample sample = sampled(*other.fragments, candidate, most_sampled);
-    auto right = narrow_account(*other.fragments, candidate, sample);
+    auto right = right_narrowly(*other.fragments, candidate);
     if (!right && !wrong_pixels.empty() && wrong_pixels.size() <= few_wrong) {
         other.fragments->find_coverages();
-        sample = sampled(*other.fragments, candidate, most_sampled);
-        right = narrow_account(*other.fragments, candidate, sample);
+        right = right_narrowly(*other.fragments, candidate);
     }
     if (!right) return std::nullopt;
-    other.verdict = {.is_right = true,
-                     .width = other.fragments->width(),
-                     .facts = facts_of(*other.fragments, sample),
-                     .right = *std::move(right)};
-    other.verdict.alpha = check_alpha(*other.fragments, candidate, other.verdict.right.account.hypothesis);
-    other.verdict.is_right = other.verdict.alpha.state != AlphaState::wrong;
+    other.verdict = *std::move(right);
     return other;
 }
 

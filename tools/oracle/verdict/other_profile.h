@@ -21,6 +21,10 @@ namespace strata::oracle::verdict {
 
 class Colors;
 
+// The verdict on a picture that is right under a hypothesis which leaves little open, with the coverage of other
+// rasterizers if the scene has it. Empty if there is none.
+[[nodiscard]] std::optional<Verdict> right_narrowly(const SceneFragments& scene, const Colors& candidate);
+
 struct OtherProfile {
     std::unique_ptr<pipeline::DeviceProfile> profile;  // `fragments` refers to it
     std::unique_ptr<SceneFragments> fragments;

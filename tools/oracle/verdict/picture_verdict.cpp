@@ -1,30 +1,140 @@
 #include "tools/oracle/verdict/picture_verdict.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "peeling/algorithms/algorithm.h"
 #include "pipeline/device/profile.h"
+#include "tools/oracle/verdict/equal_picture.h"
 #include "tools/oracle/verdict/other_profile.h"
 #include "tools/oracle/verdict/report.h"
 
 namespace strata::oracle::verdict {
 
-PictureVerdict judge_picture(const RunInput& input, const PictureQuestion& question) {
-    const std::uint64_t bytes = input.options.fragment_memory;
-    PictureVerdict result{.fragments = std::make_unique<SceneFragments>(input, bytes)};
-    result.formed = formed(*result.fragments, question.colors, question.is_form_stated);
-    result.formed.use.has_alpha = question.has_alpha;
-    const Colors seen = result.formed.colors();
-    result.found = judge(*result.fragments, seen);
-    result.reading = result.formed.description();
-    if (result.state() != State::wrong || result.found.alpha.state == AlphaState::wrong) return result;
-    const std::vector<std::uint32_t> wrong = result.found.right.wrong_pixels;
-    if (auto other = right_by_other_profile(input, seen, wrong, question.more)) {
-        result.reading += other->description(input.profile.name, wrong.size());
-        result.found = std::move(other->verdict);
-        result.other_profile = std::move(other->profile);
-        result.fragments = std::move(other->fragments);
+namespace {
+
+using pipeline::DeviceProfile;
+
+// The ways to read the numbers, the usual first.
+std::vector<Stored> readings(const PictureQuestion& question) {
+    if (!question.is_frame_linear || !question.colors.holds_encoded) return {Stored::as_they_are};
+    return {Stored::encoded, Stored::srgb_target, Stored::as_they_are};
+}
+
+std::string words_of(Stored stored) {
+    switch (stored) {
+        case Stored::as_they_are:
+            return "  its numbers are linear light, as they are: a file for display has them encoded\n";
+        case Stored::srgb_target: return "  blended in an sRGB target: every blend is decoded, and encoded again\n";
+        case Stored::encoded: break;
     }
-    return result;
+    return "";
+}
+
+class PictureJudge {
+  public:
+    PictureJudge(const RunInput& input, const PictureQuestion& question) : input_{input}, question_{question} {
+        result_.fragments = std::make_unique<SceneFragments>(input, input.options.fragment_memory);
+        scene().set_stored(readings(question)[0]);
+        result_.formed = formed(scene(), question.colors, question.is_form_stated);
+        result_.formed.use.has_alpha = question.has_alpha;
+        result_.reading = result_.formed.description();
+    }
+
+    [[nodiscard]] PictureVerdict decide() && {
+        auto quick = judge_quickly(scene(), seen());
+        if (quick && quick->state() == State::right) return with(*std::move(quick));
+        if (const std::string name = equal_algorithm(input_, question_, scene()); !name.empty())
+            return with(equal_to(name));
+        if (auto right = by_another_reading()) return with(*std::move(right));
+        result_.found = quick ? *std::move(quick) : judge_at_length(scene(), seen());
+        ask_profiles();
+        hold_to_algorithm();
+        doubt_many_edges();
+        return std::move(result_);
+    }
+
+  private:
+    [[nodiscard]] SceneFragments& scene() const { return *result_.fragments; }
+    [[nodiscard]] Colors seen() const { return result_.formed.colors(); }
+    [[nodiscard]] PictureVerdict with(Verdict&& verdict) {
+        result_.found = std::move(verdict);
+        return std::move(result_);
+    }
+
+    [[nodiscard]] Verdict equal_to(const std::string& name) const {
+        Verdict verdict{.is_right = true, .width = scene().width(), .equal_to = name};
+        verdict.right.pixels = question_.colors.pixels();
+        verdict.alpha.state =
+            question_.has_alpha && question_.colors.channels == 4 ? AlphaState::right : AlphaState::absent;
+        return verdict;
+    }
+
+    [[nodiscard]] std::optional<Verdict> by_another_reading() {
+        const std::vector<Stored> all = readings(question_);
+        for (std::size_t i = 1; i < all.size(); ++i) {
+            scene().set_stored(all[i]);
+            auto right = right_narrowly(scene(), seen());
+            if (!right || !right->is_right) continue;
+            result_.reading += words_of(all[i]);
+            return right;
+        }
+        scene().set_stored(all[0]);
+        return std::nullopt;
+    }
+
+    // Another profile's rules explain a wrong picture, or the edges of one that is right but for them.
+    void ask_profiles() {
+        Verdict& found = result_.found;
+        const bool is_wrong = found.state() == State::wrong && found.alpha.state != AlphaState::wrong;
+        const bool is_excused = found.right.at_edges > 0 && found.state() != State::wrong;
+        if (!is_wrong && !is_excused) return;
+        std::vector<std::uint32_t> wrong = found.right.wrong_pixels;
+        auto other = right_by_other_profile(input_, seen(), wrong, question_.more);
+        if (!other || (is_excused && other->verdict.right.at_edges > 0)) return;
+        result_.reading += other->description(input_.profile.name, is_wrong ? wrong.size() : found.right.at_edges);
+        found = std::move(other->verdict);
+        result_.other_profile = std::move(other->profile);
+        result_.fragments = std::move(other->fragments);
+    }
+
+    // An algorithm that keeps all fragments of one depth must not lose any.
+    void hold_to_algorithm() {
+        Verdict& found = result_.found;
+        if (!found.is_right || found.right.lost_at_ties == 0 || question_.algorithm == nullptr) return;
+        const auto ties = question_.algorithm->ties;
+        if (ties != peeling::TiePolicy::first && ties != peeling::TiePolicy::last &&
+            ties != peeling::TiePolicy::first_then_last)
+            return;
+        found.is_right = false;
+        found.finding = fmt::format("fragments of one depth are lost or merged at {} of {} pixels, and {} keeps all",
+                                    found.right.lost_at_ties, found.right.pixels, question_.algorithm->name);
+    }
+
+    // Real rasterizers have 8 bits of subpixels, a thirty-second of what the coverages allow.
+    void doubt_many_edges() {
+        Verdict& found = result_.found;
+        constexpr std::uint64_t few = 8;
+        const std::uint64_t most = std::max(few, found.right.edges / 20);
+        if (!found.is_right || found.right.at_edges <= most) return;
+        found.is_right = false;
+        found.doubt = fmt::format(
+            "{} of {} pixels at edges are excused, where another rasterizer's snapping moves few: "
+            "another view or position?",
+            found.right.at_edges, found.right.edges);
+    }
+
+    const RunInput& input_;
+    const PictureQuestion& question_;
+    PictureVerdict result_{};
+};
+
+}  // namespace
+
+PictureVerdict judge_picture(const RunInput& input, const PictureQuestion& question) {
+    return PictureJudge{input, question}.decide();
 }
 
 std::string to_text(const PictureVerdict& verdict, const pipeline::DrawList& list) {

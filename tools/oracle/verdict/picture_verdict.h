@@ -1,10 +1,13 @@
 // tools/oracle/verdict/picture_verdict.h - the verdict on the picture of a port: the one answer that compare, diagnose,
 // the library and Python give.
 //
-// Rule     In this order: the right structure and the search for mistakes (verdict.h), then the rules of the other
-//          profiles (other_profile.h). Of a file with straight colours the form with fewer wrong pixels is used
-//          (form.h).
-// Tests    tests/tools/compare_scene_test.cpp
+// Rule     In this order: the right structure under a narrow hypothesis, equality with a picture of the program
+//          (equal_picture.h), the search for mistakes (verdict.h), the rules of the other profiles (other_profile.h).
+//          Of a file with straight colours the form with fewer wrong pixels is used (form.h). A file for display of a
+//          linear frame is read as encoded values, as codes of an sRGB target, then as linear ones. A picture that
+//          needs more pixels at edges than real snapping moves is not decided, and one that loses fragments of one
+//          depth is wrong of an algorithm that keeps them.
+// Tests    tests/tools/oracle/verdict/picture_verdict_test.cpp, tests/tools/compare_scene_test.cpp
 #pragma once
 #include <memory>
 #include <span>

@@ -38,7 +38,7 @@ class Pricing {
         return 24;
     }
     // The cost of describing that a pixel at an edge is covered differently, and how.
-    static constexpr double of_edge = 6;
+    static constexpr double of_edge = 20;
 
   private:
     // The number of possible sums. Each has an error of some units in the last place, or of the interval of a float

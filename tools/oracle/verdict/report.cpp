@@ -30,18 +30,27 @@ std::string ties_of(const CheckedAccount& c) {
                        c.has_one_tie_rule ? describe(c.ties) : "composited by no one rule");
 }
 
+std::string excused_of(const CheckedAccount& c) {
+    std::string text = fmt::format("{} excused", c.excused());
+    if (c.at_edges > 0) text += fmt::format(": {} at edges that another rasterizer may cover so", c.at_edges);
+    if (c.lost_at_ties > 0)
+        text += fmt::format("{} {} where fragments of one depth are lost or merged, as peels do",
+                            c.at_edges > 0 ? " and" : ":", c.lost_at_ties);
+    return text;
+}
+
 }  // namespace
 
 std::string first_line(const Verdict& v, const pipeline::DrawList& list) {
+    if (!v.finding.empty()) return "wrong: " + v.finding;
+    if (v.is_right && !v.equal_to.empty())
+        return fmt::format("right: equal to the picture of {} at all {}", v.equal_to, pixels(v.right.pixels));
     if (v.state() == State::right_but_excused)
-        return fmt::format(
-            "right: structure exact at {} of {}, {} excused at edges that another rasterizer may cover so; {}",
-            v.right.pixels - v.right.excused(), pixels(v.right.pixels), v.right.excused(), rounding_of(v.right));
+        return fmt::format("right: structure exact at {} of {}, {}; {}", v.right.pixels - v.right.excused(),
+                           pixels(v.right.pixels), excused_of(v.right), rounding_of(v.right));
     if (v.is_right)
         return fmt::format("right: structure exact at all {}; {}", pixels(v.right.pixels), rounding_of(v.right));
-    if (v.is_undecided())
-        return fmt::format("not decided: a right port may leave all {}; {}", pixels(v.right.pixels),
-                           rounding_of(v.right));
+    if (v.is_undecided()) return fmt::format("not decided: {}", v.doubt);
     if (v.alpha.state == AlphaState::wrong)
         return fmt::format("wrong: alpha is not what the layers leave at {} of {}; their colours are right",
                            v.alpha.wrong_pixels.size(), pixels(v.right.pixels));
@@ -84,7 +93,8 @@ std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
     }
     if (!v.distinguishing_command.empty()) add("this tells them apart: " + v.distinguishing_command);
     const CheckedAccount& account = v.explanations.empty() ? v.right : v.explanations[0];
-    add((v.right.is_whole() || !v.explanations.empty() ? "" : "closest: ") + describe(account.account.hypothesis));
+    if (v.equal_to.empty())
+        add((v.right.is_whole() || !v.explanations.empty() ? "" : "closest: ") + describe(account.account.hypothesis));
     if (!v.is_right && !v.explanations.empty()) add(rounding_of(account));
     if (account.tied > 0) add(ties_of(account));
     if (account.at_edges > 0)

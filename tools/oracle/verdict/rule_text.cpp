@@ -231,10 +231,14 @@ std::string description(const Rule& rule, const SceneFacts& facts, const pipelin
         case RuleKind::premultiplied_twice: return "colours are multiplied by alpha twice";
         case RuleKind::not_premultiplied: return "colours are not multiplied by alpha";
         case RuleKind::red_for_blue: return "red and blue are exchanged in the layers";
-        case RuleKind::decoded: return "colours are decoded from sRGB before they are blended";
+        case RuleKind::decoded:
+            return fmt::format("colours{} are decoded from sRGB before they are blended, and not encoded again",
+                               n == 0   ? ""
+                               : n == 1 ? ", of opaque surfaces, too,"
+                                        : ", of opaque surfaces and the background, too,");
         case RuleKind::encoded: return "colours are encoded to sRGB before they are blended";
         case RuleKind::picture_encoded: return "the finished picture is encoded to sRGB once more";
-        case RuleKind::picture_decoded: return "the finished picture is decoded from sRGB once more";
+        case RuleKind::picture_decoded: return "the finished picture is decoded from sRGB once more, or not encoded";
         case RuleKind::rows_reversed: return "the picture is upside down";
         case RuleKind::columns_reversed: return "left and right are exchanged";
         case RuleKind::turned: return "the picture is turned by half a turn";

@@ -125,6 +125,7 @@ void add_scoped(Rules& all, const SceneFacts& facts) {
     };
     add_colors({});
     add(all, {blended_linear});
+    add_numbered(all, {decoded}, facts.has_opaque ? 1 : 2, 3);
     for (const Rule& scope : scopes_of(facts)) {
         for (const RuleKind kind : {some_lost, some_doubled})
             all.push_back({.kind = kind, .scope = scope.scope, .of = scope.of});
@@ -209,6 +210,39 @@ std::vector<Rule> rules_for(const SceneFacts& facts) {
     if (most > 1)
         add_numbered(all, {swapped, swapped_from_far, merged, mixed, color_of_next, color_of_previous}, 0, most - 1);
     return all;
+}
+
+int commonness_of(RuleKind kind) noexcept {
+    using enum RuleKind;
+    switch (kind) {
+        case as_submitted:
+        case as_submitted_reversed:
+        case reversed:
+        case nearest_alone:
+        case ends_alone:
+        case lost:
+        case doubled:
+        case all_doubled:
+        case alpha_ignored:
+        case alpha_squared:
+        case premultiplied_twice:
+        case not_premultiplied:
+        case averaged:
+        case decoded:
+        case blended_linear:
+        case background_other:
+        case background_lost: return 0;
+        case colors_as_submitted:
+        case alphas_as_submitted:
+        case colors_shifted:
+        case alphas_shifted:
+        case submitted_moved:
+        case by_centroid:
+        case through_late:
+        case veiled:
+        case few_bits: return 2;
+        default: return 1;
+    }
 }
 
 std::vector<Rule> one_of_each_kind(const SceneFacts& facts) {

@@ -30,6 +30,9 @@ struct SceneFacts {
 
 // All rules that are tried, the simplest first.
 [[nodiscard]] std::vector<Rule> rules_for(const SceneFacts& facts);
+// The rank of a mistake by how often ports make it: 0 the usual ones. Explanations that this scene cannot distinguish
+// are reported in this order.
+[[nodiscard]] int commonness_of(RuleKind kind) noexcept;
 // One rule per kind; if the kind has parameters, the values with the smallest effect.
 [[nodiscard]] std::vector<Rule> one_of_each_kind(const SceneFacts& facts);
 // The order in which two rules are applied: first those that select layers, then those that order them, then those that

@@ -165,10 +165,14 @@ Families possible(const Families& all, const SplitSample& parts, const Hypothesi
     return left;
 }
 
+// Few bits and a rounding that leaves more than one value to each blend would explain any value.
+bool keeps_few_bits(const Hypothesis& h) {
+    return h.front.rounding == Rounding::nearest || h.front.rounding == Rounding::truncated;
+}
+
 // Of these hypotheses, those that reach each of a few wrong pixels under the rules.
 Families possible(const Families& all, const Rules& rules, const SplitSample& parts, const Setting& setting) {
     constexpr std::size_t most_looked_at = 8;
-    // A mistake of few bits combined with arbitrary rounding would explain any value.
     const bool has_few_bits = std::ranges::find(rules, RuleKind::few_bits, &Rule::kind) != rules.end();
     StackMaker maker{setting};
     std::vector<StackedPixel> pixels;
@@ -185,9 +189,8 @@ Families possible(const Families& all, const Rules& rules, const SplitSample& pa
         HypothesisFamily own{.widest = family.widest};
         if (maker.steps().is_spent()) break;
         if (!is_held(family.widest)) continue;
-        std::ranges::copy_if(family.members, std::back_inserter(own.members), [&](const Hypothesis& h) {
-            return !(has_few_bits && h.front.rounding == Rounding::any) && is_held(h);
-        });
+        std::ranges::copy_if(family.members, std::back_inserter(own.members),
+                             [&](const Hypothesis& h) { return (!has_few_bits || keeps_few_bits(h)) && is_held(h); });
         if (!own.members.empty()) left.push_back(std::move(own));
     }
     return left;
@@ -241,12 +244,20 @@ bool is_much_closer(const CheckedAccount& account, double right_bits) {
     return 2 * account.bits < right_bits && decided >= many && 10 * account.undecided <= account.changed;
 }
 
+// An explanation must change several pixels that the right structure does not reach: among so many rules, some fit a
+// few pixels by chance.
+bool decides(const CheckedAccount& account) {
+    constexpr std::uint64_t least_decided = 4;
+    return account.changed - account.undecided >= least_decided;
+}
+bool explains(const CheckedAccount& account) { return decides(account) && account.bits <= most_open(account); }
+
 // The accounts that hold for the whole picture; of rules that differ only in their numbers, only the first.
 std::vector<CheckedAccount> whole(const std::vector<Rules>& all, const SceneFragments& scene, const Colors& candidate,
                                   const Families& definite, const std::optional<Hypothesis>& closest,
                                   const SplitSample& parts, const Sample& sample, std::size_t most_tried,
                                   const AgainstRight& against = {}) {
-    constexpr std::size_t most_told = 12, least_decided = 4, few_sampled = 400;
+    constexpr std::size_t most_told = 12, few_sampled = 400;
     std::size_t tried = 0;
     const auto is_alike = [](const Rules& a, const Rules& b) {
         return std::ranges::equal(a, b, [](const Rule& x, const Rule& y) {
@@ -264,10 +275,7 @@ std::vector<CheckedAccount> whole(const std::vector<Rules>& all, const SceneFrag
         Sample own = sample.thinned(few_sampled);
         const auto likely = found.empty() ? closest : found.back().account.hypothesis;
         auto one = account_for(own_families, rules, scene, candidate, own, likely, against.most_rejected);
-        // An explanation must change several pixels that the right structure does not reach: among so many rules, some
-        // fit a few pixels by chance.
-        if (one && one->changed - one->undecided >= least_decided &&
-            (one->bits <= most_open(*one) || is_much_closer(*one, against.bits)))
+        if (one && (explains(*one) || (decides(*one) && is_much_closer(*one, against.bits))))
             found.push_back(*std::move(one));
     }
     return found;
@@ -309,6 +317,18 @@ std::vector<CheckedAccount> search(const SceneFragments& scene, const Colors& ca
     if (found.empty() && most_rules == 1 && !scene.setting().work->is_spent()) find(definite, most_tried_again);
     drop_roomy(found, bits_of(closest));
     return found;
+}
+
+std::optional<CheckedAccount> explained_by(const std::vector<Rule>& rules, const SceneFragments& scene,
+                                           const Colors& candidate, const Families& definite, const Sample& sample) {
+    Families own = definite;
+    if (std::ranges::find(rules, RuleKind::few_bits, &Rule::kind) != rules.end())
+        for (HypothesisFamily& family : own)
+            std::erase_if(family.members, [](const Hypothesis& h) { return !keeps_few_bits(h); });
+    Sample some = sample;
+    auto one = account_for(own, rules, scene, candidate, some);
+    if (one && !explains(*one)) one.reset();
+    return one;
 }
 
 namespace {

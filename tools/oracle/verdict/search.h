@@ -30,6 +30,11 @@ struct AgainstRight {
                                                      const Families& narrow, const Sample& sample,
                                                      const AgainstRight& against);
 
+// The account of the whole picture with these rules, if it is an explanation: it holds for every pixel.
+[[nodiscard]] std::optional<CheckedAccount> explained_by(const std::vector<Rule>& rules, const SceneFragments& scene,
+                                                         const Colors& candidate, const Families& definite,
+                                                         const Sample& sample);
+
 // The rules that explain the most wrong pixels of a sample, the best first.
 [[nodiscard]] std::vector<Lead> leads(const SceneFragments& scene, const CheckedAccount& closest, const Sample& sample);
 

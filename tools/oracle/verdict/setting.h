@@ -50,7 +50,12 @@ struct DrawingOrder {
 enum class TrianglePoint : std::uint8_t { mean, window_mean, nearest, farthest };
 inline constexpr std::uint32_t triangle_point_count = 4;
 
+// What the numbers of a picture are: values of the frame; those of a linear frame, encoded for sRGB when it was saved;
+// codes of an sRGB target, which decodes and encodes at every blend.
+enum class Stored : std::uint8_t { as_they_are, encoded, srgb_target };
+
 struct Setting {
+    Stored stored = Stored::as_they_are;
     Rgba cleared{0, 0, 0, 1};               // the colour where nothing is drawn
     std::optional<Rgba> seen_background{};  // the candidate's colour there, if it is a single other colour
     // By InstanceOrder, then by instance: its rank in drawing order. Empty: as listed.

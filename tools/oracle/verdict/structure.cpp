@@ -223,9 +223,9 @@ const Stack& StackMaker::with(std::span<const Rule> rules, const PixelList& give
     steps_.list(order_.size());
     stack_.background = pixel.behind;
     stack_.background_spread = pixel.behind_spread;
-    stack_.is_linear = false;
+    stack_.is_linear = setting_->stored == Stored::srgb_target;
     stack_.is_moved = is_moved;
-    stack_.finish = Finish::as_is;
+    stack_.finish = setting_->stored == Stored::encoded ? Finish::encoded : Finish::as_is;
     stack_.mixing = {};
     for (const Rule& rule : rules) {
         if (!rule.region.has(pixel.x, pixel.y)) continue;

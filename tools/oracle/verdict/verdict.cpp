@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "rasterizer/base/parallel.h"
+#include "tools/oracle/verdict/doubt.h"
 #include "tools/oracle/verdict/pricing.h"
 #include "tools/oracle/verdict/search.h"
 
@@ -166,6 +167,27 @@ std::vector<CheckedAccount> told_better(const SceneFragments& scene, const Color
     return better;
 }
 
+// Mistakes that explain, without another rasterizer, what the right structure explains with one alone.
+std::vector<CheckedAccount> told_without_edges(const SceneFragments& scene, const Colors& candidate,
+                                               const Families& definite, const CheckedAccount& right,
+                                               const Sample& even) {
+    constexpr std::uint64_t fewest = 8;
+    constexpr std::size_t most = 48, most_structures = 512;
+    if (right.at_edges < fewest) return {};
+    Sample excused{scene.setting()};
+    static_cast<void>(check_all(scene, candidate, right.account, WrongPixels::some, excused));
+    Sample some = excused.thinned(most).with_few_structures(most_structures);
+    const Sample others = deepest(even, most).with_few_structures(most_structures);
+    for (const SampledPixel& pixel : others.pixels())
+        if (!some.has(pixel.list.x, pixel.list.y)) some.add(pixel.list, pixel.value);
+    some.sort();
+    std::vector<CheckedAccount> better = search_all(scene, candidate, definite, some, {.bits = right.bits});
+    std::erase_if(better, [&](const CheckedAccount& c) {
+        return 4 * c.at_edges > right.at_edges || c.bits >= right.bits || c.needing_many > right.needing_many;
+    });
+    return better;
+}
+
 // The account of the right structure that describes the picture, including its wrong pixels, in the fewest bits. The
 // hypothesis is chosen on a sample, then again with some of the wrong pixels added.
 CheckedAccount closest_account(const SceneFragments& scene, const Colors& candidate, const Families& definite,
@@ -213,61 +235,119 @@ std::optional<Region> region_of(const std::vector<std::uint32_t>& wrong, int wid
 
 }  // namespace
 
-Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits& limits) {
-    constexpr std::size_t most_sampled = 2048, most_structures = 32768;
-    Work& work = *scene.setting().work;
-    work.restart();
+namespace {
+
+constexpr std::size_t most_sampled = 2048;
+
+// What remains to be asked of a picture that the right structure reaches: whether a mistake explains it better, whether
+// rounding does, and its alpha.
+class RightPicture {
+  public:
+    RightPicture(const SceneFragments& scene, const Colors& candidate, const Choices& all, const SearchLimits& limits)
+        : scene_{scene},
+          candidate_{candidate},
+          all_{all},
+          narrower_{limits.narrower + limits.of_fragment * scene.count()},
+          of_edges_{limits.narrower / 30 + limits.of_fragment * scene.count()} {}
+
+    [[nodiscard]] Verdict decide(Verdict verdict, CheckedAccount&& right, const Sample& even) const {
+        Work& work = *scene_.setting().work;
+        verdict.right = std::move(right);
+        work.allow(of_edges_);
+        verdict.explanations = told_without_edges(scene_, candidate_, all_.definite, verdict.right, even);
+        work.restart();
+        work.allow(narrower_);
+        if (verdict.explanations.empty())
+            verdict.explanations = told_better(scene_, candidate_, all_, verdict.right, even);
+        verdict.is_stopped = work.is_cut_short();
+        if (!verdict.explanations.empty()) return verdict;
+        work.restart();
+        verdict.doubt = doubt_of(scene_, candidate_, verdict.right, all_.definite);
+        if (verdict.is_stopped && verdict.doubt.empty())
+            verdict.doubt = "a right port may leave all pixels, but not all mistakes were tried";
+        find_alike(scene_, candidate_, verdict);
+        verdict.alpha = check_alpha(scene_, candidate_, verdict.right.account.hypothesis);
+        verdict.is_right = verdict.doubt.empty() && verdict.alpha.state != AlphaState::wrong;
+        return verdict;
+    }
+
+  private:
+    const SceneFragments& scene_;
+    const Colors& candidate_;
+    const Choices& all_;
+    std::uint64_t narrower_, of_edges_;
+};
+
+// Prepares a scene for a verdict.
+void restart(SceneFragments& scene) {
+    scene.setting().work->restart();
     scene.set_seen_background(std::nullopt);
     scene.show_at_far_plane(false);
+}
+
+}  // namespace
+
+std::optional<Verdict> judge_quickly(SceneFragments& scene, const Colors& candidate, const SearchLimits& limits) {
+    restart(scene);
+    const Choices all = choices(candidate);
+    const RightPicture picture{scene, candidate, all, limits};
+    for (const bool is_shown : {false, true}) {
+        if (is_shown && scene.count_at_far_plane() == 0) break;
+        scene.show_at_far_plane(is_shown);
+        const Sample even = sampled(scene, candidate, most_sampled);
+        Verdict verdict{.width = scene.width(), .facts = facts_of(scene, even)};
+        Sample sample = even;
+        auto right = account_for(all.definite, {}, scene, candidate, sample);
+        if (!right || !leaves_little_open(*right)) continue;
+        if (is_shown) verdict.shown_at_far_plane = scene.count_at_far_plane();
+        return picture.decide(std::move(verdict), *std::move(right), even);
+    }
+    scene.show_at_far_plane(false);
+    return std::nullopt;
+}
+
+namespace {
+
+// The usual mistakes first.
+void sort_explanations(Verdict& verdict) {
+    std::ranges::stable_sort(verdict.explanations, {}, [](const CheckedAccount& c) {
+        int most = 0;
+        for (const Rule& rule : c.account.rules) most = std::max(most, commonness_of(rule.kind));
+        return most;
+    });
+}
+
+Verdict found_at_length(SceneFragments& scene, const Colors& candidate, const SearchLimits& limits) {
+    constexpr std::size_t most_structures = 32768;
+    restart(scene);
+    Work& work = *scene.setting().work;
     const std::uint64_t of_fragments = limits.of_fragment * scene.count();
     const Storage storage = storage_of(candidate.code());
     const Choices all = choices(candidate);
+    const RightPicture picture{scene, candidate, all, limits};
     Verdict verdict{.width = scene.width()};
-    const auto is_right = [&](CheckedAccount&& right, const Sample& even) {
-        verdict.right = std::move(right);
-        work.allow(limits.narrower + of_fragments);
-        verdict.explanations = told_better(scene, candidate, all, verdict.right, even);
-        verdict.is_stopped = work.is_cut_short();
-        verdict.is_right = verdict.explanations.empty() && !verdict.is_stopped;
-        if (verdict.explanations.empty()) {
-            find_alike(scene, candidate, verdict);
-            verdict.alpha = check_alpha(scene, candidate, verdict.right.account.hypothesis);
-        }
-        if (verdict.alpha.state == AlphaState::wrong) verdict.is_right = false;
-        return verdict;
-    };
-    {
-        const Sample even = sampled(scene, candidate, most_sampled);
-        verdict.facts = facts_of(scene, even);
-        Sample sample = even;
-        auto right = account_for(all.definite, {}, scene, candidate, sample);
-        if (right && leaves_little_open(*right)) return is_right(*std::move(right), even);
-    }
-    if (scene.count_at_far_plane() > 0) {
-        scene.show_at_far_plane(true);
-        Sample shown = sampled(scene, candidate, most_sampled);
-        auto right = account_for(all.definite, {}, scene, candidate, shown);
-        if (right && leaves_little_open(*right)) {
-            verdict.shown_at_far_plane = scene.count_at_far_plane();
-            return is_right(*std::move(right), shown);
-        }
-        scene.show_at_far_plane(false);
-    }
     scene.find_coverages();
     const Sample even = sampled(scene, candidate, most_sampled);
     scene.set_seen_background(other_background(scene, candidate));
     verdict.facts = facts_of(scene, even);
     Sample sample = even, examples{scene.setting()};
     verdict.right = closest_account(scene, candidate, all.definite, even, examples);
-    if (verdict.right.is_whole()) return is_right(std::move(verdict.right), even);
+    if (verdict.right.is_whole()) {
+        CheckedAccount right = std::move(verdict.right);
+        return picture.decide(std::move(verdict), std::move(right), even);
+    }
     // An account with wider intervals than the closest one must cost about as little, or no pixel may be far off.
     constexpr double few_codes = 2;
     const double most_bits = 1.1 * bits_of(verdict.right, storage) + 64;
+    std::optional<Verdict> doubtful;
     for (const Families* some : {&all.definite, &all.coarse, &all.loose}) {
         auto right = account_for(*some, {}, scene, candidate, sample);
-        if (right &&
-            (right->bits <= most_bits || (is_of_codes(right->account.hypothesis) && right->observed <= few_codes)))
-            return is_right(*std::move(right), even);
+        if (!right ||
+            (right->bits > most_bits && !(is_of_codes(right->account.hypothesis) && right->observed <= few_codes)))
+            continue;
+        doubtful = picture.decide(verdict, *std::move(right), even);
+        if (doubtful->doubt.empty()) return *std::move(doubtful);
+        break;
     }
     for (const SampledPixel& pixel : examples.pixels())
         if (!sample.has(pixel.list.x, pixel.list.y)) sample.add(pixel.list, pixel.value);
@@ -286,9 +366,33 @@ Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits
     if (const auto region = region_of(verdict.right.wrong_pixels, scene.width(), scene.height()))
         if (is_found(all.definite, 1, *region)) return verdict;
     if (is_found(all.coarse, 1, {}) || is_found(all.definite, 2, {})) return verdict;
+    if (doubtful) return *std::move(doubtful);
     work.allow(limits.leads);
     verdict.leads = leads(scene, verdict.right, sample);
+    // The search may have stopped before it tried a mistake that explains all pixels that were looked at.
+    for (const Lead& lead : verdict.leads) {
+        if (lead.explained < lead.of || lead.contradicted > 0) continue;
+        work.restart();
+        auto found = explained_by(lead.rules, scene, candidate, all.definite, even);
+        if (!found) continue;
+        verdict.explanations = {*std::move(found)};
+        verdict.is_stopped = false;
+        break;
+    }
     return verdict;
+}
+
+}  // namespace
+
+Verdict judge_at_length(SceneFragments& scene, const Colors& candidate, const SearchLimits& limits) {
+    Verdict verdict = found_at_length(scene, candidate, limits);
+    sort_explanations(verdict);
+    return verdict;
+}
+
+Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits& limits) {
+    if (auto quick = judge_quickly(scene, candidate, limits)) return *std::move(quick);
+    return judge_at_length(scene, candidate, limits);
 }
 
 }  // namespace strata::oracle::verdict

@@ -9,6 +9,7 @@
 //          distinguish are all reported; none is preferred.
 // Tests    tests/tools/oracle/verdict/verdict_test.cpp
 #pragma once
+#include <optional>
 #include <string>
 
 #include "tools/oracle/verdict/account.h"
@@ -34,17 +35,21 @@ struct Verdict {
     // too.
     std::vector<Rule> alike{};
     std::size_t kinds = 0;                 // number of kinds that were tried
+    std::string equal_to{};                // the algorithm whose picture this is; "": none, or not asked
+    std::string doubt{};                   // why a picture that a right port may leave is not called right
+    std::string finding{};                 // a mistake that is no rule, as words after "wrong: "
     bool is_stopped = false;               // the search ended before all mistakes were tried
     std::string distinguishing_command{};  // command of a scene that distinguishes the explanations, if one is known
 
     // True if rounding explains every pixel, but the search ended before all mistakes that may explain the picture
     // better were tried.
     [[nodiscard]] bool is_undecided() const noexcept {
-        return !is_right && explanations.empty() && right.is_whole() && alpha.state != AlphaState::wrong;
+        return !is_right && finding.empty() && explanations.empty() && right.is_whole() &&
+               alpha.state != AlphaState::wrong;
     }
     [[nodiscard]] State state() const noexcept {
         if (!is_right) return is_undecided() ? State::undecided : State::wrong;
-        return right.excused() > 0 ? State::right_but_excused : State::right;
+        return equal_to.empty() && right.excused() > 0 ? State::right_but_excused : State::right;
     }
 };
 
@@ -60,7 +65,12 @@ struct SearchLimits {
     std::uint64_t of_fragment = 4;  // added per fragment of the scene
 };
 
-// Decides. If necessary, makes the scene compute the other coverage of its edges (coverages.h).
+// Decides if the picture is clearly right: by the given fragments alone, with little left open. Empty if not.
+[[nodiscard]] std::optional<Verdict> judge_quickly(SceneFragments& scene, const Colors& candidate,
+                                                   const SearchLimits& limits = {});
+// Decides what is not clearly right. Makes the scene compute the other coverage of its edges (coverages.h).
+[[nodiscard]] Verdict judge_at_length(SceneFragments& scene, const Colors& candidate, const SearchLimits& limits = {});
+// The one, and if it is empty the other.
 [[nodiscard]] Verdict judge(SceneFragments& scene, const Colors& candidate, const SearchLimits& limits = {});
 
 }  // namespace strata::oracle::verdict

@@ -20,12 +20,18 @@ struct OpenedScene {
     pipeline::View view;
     pipeline::DeviceProfile profile = *pipeline::find_profile("geforce8");
     peeling::RenderOptions options{};
+    bool is_linear = false;
 
     explicit OpenedScene(const std::string& name, int width, int height) : scene{scenes::load_scene(name, {})} {
         options.width = width;
         options.height = height;
         options.background = {0.2f, 0.3f, 0.5f, 1};
         view = scene.own_view.value_or(scenes::orbit_view(scene.bounds, 30, 20, double(width) / height));
+    }
+    // Loads the scene again with decoded colours.
+    void open_linear(const std::string& name) {
+        scene = scenes::load_scene(name, {.color_space = pipeline::ColorSpace::linear});
+        is_linear = true;
     }
     [[nodiscard]] oracle::RunInput input() const { return {scene.list, view, profile, options}; }
     [[nodiscard]] oracle::verdict::SceneFragments fragments() const {

@@ -1,0 +1,114 @@
+#include "tools/oracle/verdict/equal_picture.h"
+
+#include <algorithm>
+#include <mutex>
+#include <vector>
+
+#include "peeling/registry.h"
+#include "peeling/render.h"
+#include "pipeline/device/check.h"
+#include "tools/oracle/stored_like.h"
+#include "tools/oracle/verdict/picture_verdict.h"
+
+namespace strata::oracle::verdict {
+
+namespace {
+
+using pipeline::Format;
+
+// The square of a grid with the most fragments.
+rasterizer::Rect fullest(const SceneFragments& scene) {
+    constexpr int side = 32;
+    const int columns = (scene.width() + side - 1) / side;
+    std::vector<std::uint64_t> counts(static_cast<std::size_t>(columns) *
+                                      static_cast<std::size_t>((scene.height() + side - 1) / side));
+    std::mutex mutex;
+    scene.for_each_tile([&](const TileLists& tile) {
+        const std::scoped_lock lock{mutex};
+        for (std::size_t p = 0; p < tile.rect.area(); ++p) {
+            const PixelList list = scene.at(tile, p);
+            counts[static_cast<std::size_t>(list.y / side * columns + list.x / side)] += list.visible.size();
+        }
+    });
+    const int most = static_cast<int>(std::ranges::max_element(counts) - counts.begin());
+    const int x = most % columns * side, y = most / columns * side;
+    return {x, y, std::min(x + side, scene.width()), std::min(y + side, scene.height())};
+}
+
+// A finished picture as the candidate's file has it; empty if its codes are of another type.
+std::optional<Target> as_stored(const pipeline::Image& image, const PictureQuestion& question) {
+    Target own = as_target(image, "color");
+    own.alpha_form = AlphaForm::premultiplied;
+    const auto space = question.is_frame_linear ? pipeline::ColorSpace::linear : pipeline::ColorSpace::encoded;
+    if (auto stored = stored_like(own, question.colors, space)) own = *std::move(stored);
+    if (own.code != question.colors.code) return std::nullopt;
+    return own;
+}
+
+bool is_equal(const Target& own, const PictureQuestion& question, const rasterizer::Rect& rect) {
+    const Target& candidate = question.colors;
+    const int channels = candidate.is_grey    ? 3
+                         : question.has_alpha ? candidate.channels
+                                              : std::min(candidate.channels, 3);
+    for (int y = rect.y0; y < rect.y1; ++y)
+        for (int x = rect.x0; x < rect.x1; ++x) {
+            const auto pixel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(candidate.width) + static_cast<std::size_t>(x);
+            for (int c = 0; c < std::min(channels, own.channels); ++c)
+                if (own.at(pixel, c).word != candidate.at(pixel, candidate.is_grey ? 0 : c).word) return false;
+        }
+    return true;
+}
+
+bool keeps_ties(const peeling::Algorithm& algorithm) {
+    return algorithm.ties != peeling::TiePolicy::unique && algorithm.ties != peeling::TiePolicy::merged;
+}
+
+std::vector<const peeling::Algorithm*> tried(const peeling::Algorithm* stated) {
+    std::vector<const peeling::Algorithm*> all;
+    if (stated != nullptr) all.push_back(stated);
+    for (const char* usual : {"dual", "front_to_back", "a_buffer"})
+        if (stated == nullptr) all.push_back(peeling::find_algorithm(usual));
+    for (const peeling::Algorithm& a : peeling::algorithms())
+        if (a.exact && std::ranges::find(all, &a) == all.end() &&
+            (stated == nullptr || keeps_ties(a) == keeps_ties(*stated)))
+            all.push_back(&a);
+    return all;
+}
+
+std::vector<std::optional<Format>> formats_of(const RunInput& input, Code code) {
+    std::vector<std::optional<Format>> formats{input.options.color_format};
+    if (code == Code::unorm8) formats.insert(formats.end(), {Format::rgba8, Format::rgba16f, Format::rgba32f});
+    if (code == Code::half) formats.emplace_back(Format::rgba16f);
+    if (code == Code::single) formats.emplace_back(Format::rgba32f);
+    return formats;
+}
+
+}  // namespace
+
+std::string equal_algorithm(const RunInput& input, const PictureQuestion& question, const SceneFragments& scene) {
+    const rasterizer::Rect whole{0, 0, scene.width(), scene.height()}, part = fullest(scene);
+    for (const std::optional<Format> format : formats_of(input, question.colors.code))
+        for (const peeling::Algorithm* const algorithm : tried(question.algorithm)) {
+            peeling::RenderOptions options = input.options;
+            options.audit = false;
+            options.color_format = format;
+            const auto equals = [&](const rasterizer::Rect& rect) {
+                options.raster.scissor =
+                    input.options.raster.scissor ? rasterizer::intersection(*input.options.raster.scissor, rect) : rect;
+                if (rect == whole) options.raster.scissor = input.options.raster.scissor;
+                const peeling::RenderResult drawn =
+                    peeling::Renderer{input.list, input.view, input.profile, options}.render(*algorithm);
+                if (drawn.refusal) return false;
+                const auto own = as_stored(drawn.frame.color, question);
+                return own && is_equal(*own, question, rect);
+            };
+            try {
+                if (equals(part) && equals(whole)) return algorithm->name;
+            } catch (const pipeline::Refused&) {
+            }
+        }
+    return "";
+}
+
+}  // namespace strata::oracle::verdict
