@@ -39,22 +39,9 @@ verdict::Samples samples_of(const RunInput& input, const OtherRules& rules,
     return samples;
 }
 
-// The target with codes of 8 bits if its floats are all values of such codes: the resolve stored codes, and a file of
-// floats holds them. Empty otherwise.
-std::optional<Target> in_codes(const Target& target) {
-    if (target.code != Code::half && target.code != Code::single) return std::nullopt;
-    Target made = target;
-    made.code = Code::unorm8;
-    for (std::size_t i = 0; i < target.codes.size(); ++i) {
-        made.codes[i] = nearest(Code::unorm8, value(target.code, target.codes[i]));
-        if (!is_equal({target.code, target.codes[i]}, {Code::unorm8, made.codes[i]})) return std::nullopt;
-    }
-    return made;
-}
-
 // The ways to read the picture's colours.
 std::vector<Formed> forms_of(const AskedPicture& asked, pipeline::ColorSpace space) {
-    const std::optional<Target> codes = in_codes(asked.colors);
+    const std::optional<Target> codes = verdict::in_codes(asked.colors);
     const AskedPicture picture{codes ? *codes : asked.colors, asked.is_form_stated, asked.has_alpha};
     std::vector<Formed> forms;
     const bool may_be_straight = picture.colors.alpha_form == AlphaForm::straight;

@@ -33,7 +33,20 @@ std::size_t wrong_of(const SceneFragments& scene, const Formed& formed) {
 
 }  // namespace
 
-Formed formed(const SceneFragments& scene, const Target& target, bool is_stated) {
+std::optional<Target> in_codes(const Target& target) {
+    if (target.code != Code::half && target.code != Code::single) return std::nullopt;
+    Target made = target;
+    made.code = Code::unorm8;
+    for (std::size_t i = 0; i < target.codes.size(); ++i) {
+        made.codes[i] = nearest(Code::unorm8, value(target.code, target.codes[i]));
+        if (!is_equal({target.code, target.codes[i]}, {Code::unorm8, made.codes[i]})) return std::nullopt;
+    }
+    return made;
+}
+
+Formed formed(const SceneFragments& scene, const Target& stored, bool is_stated) {
+    const std::optional<Target> codes = in_codes(stored);
+    const Target& target = codes ? *codes : stored;
     Formed as_it_is{.target = target};
     if (target.alpha_form != AlphaForm::straight) return as_it_is;
     auto multiplied = premultiplied(target);

@@ -5,6 +5,7 @@
 //          with fewer wrong pixels is used.
 // Tests    tests/tools/oracle/verdict/alpha_test.cpp
 #pragma once
+#include <optional>
 #include <string>
 
 #include "tools/oracle/picture.h"
@@ -19,6 +20,10 @@ struct Formed {
     [[nodiscard]] Colors colors() const { return Colors{target, use}; }
     [[nodiscard]] std::string description() const;  // "" if the form was not chosen
 };
+
+// The target with codes of 8 bits if its floats are all values of such codes: a target of 8 bits that a file of floats
+// holds. Empty otherwise.
+[[nodiscard]] std::optional<Target> in_codes(const Target& target);
 
 // `is_stated`: an option states the target's form; no other form is tried.
 [[nodiscard]] Formed formed(const SceneFragments& scene, const Target& target, bool is_stated);
