@@ -47,7 +47,10 @@ std::string share(const Explanation& e) {
 std::string to_text(const Comparison& c) {
     std::string text = verdict(c) + '\n';
     for (const TargetReport& target : c.targets) {
-        if (target.differing > 0)
+        if (target.differing > 0 && target.greatest == 0)
+            text += fmt::format("  target {} ({}): {} pixels differ, all of them by NaN\n", in_part(target),
+                                name(target.reference), target.differing);
+        if (target.greatest > 0)
             text += fmt::format(
                 "  target {} ({}{}): {} pixels differ by at most {} codes; pixels by codes: {}\n", in_part(target),
                 name(target.reference),
