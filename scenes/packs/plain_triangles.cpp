@@ -33,18 +33,26 @@ void number_through(Mesh& mesh) {
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = static_cast<std::uint32_t>(i);
 }
 
+// The numbers of each corner's position, 3 or 4; 0 for an array that holds no triangles.
+std::size_t coordinates_of(const NumberArray& array) {
+    const auto& shape = array.shape;
+    if (array.element != Element::f4 || shape.size() != 3 || shape[1] != 3) return 0;
+    const std::size_t coordinates = shape[2] > 4 ? shape[2] - 4 : shape[2];
+    return coordinates == 3 || coordinates == 4 ? coordinates : 0;
+}
+
 Mesh mesh_of_npy(const std::string& path, std::optional<pipeline::View>& view) {
     const NumberArray array = read_npy(path);
     const auto& shape = array.shape;
-    const bool has_color = shape.size() == 3 && shape[2] > 4;
-    const std::size_t coordinates = shape.size() == 3 ? shape[2] - (has_color ? 4 : 0) : 0;
-    if (array.element != Element::f4 || shape.size() != 3 || shape[1] != 3 || (coordinates != 3 && coordinates != 4))
+    const std::size_t coordinates = coordinates_of(array);
+    if (coordinates == 0)
         throw InputError(path, "array",
                          "f4 of shape (triangles, 3, N), N 3 for x y z, 4 for x y z w, and 4 more with r g b a",
                          fmt::format("{} of shape ({})", name(array.element), fmt::join(shape, ", ")));
     Mesh mesh;
     const auto value = [&](std::size_t i) { return std::bit_cast<float>(array.word(i)); };
     const std::size_t width = shape[2];
+    const bool has_color = width > coordinates;
     for (std::size_t i = 0; i < array.count(); i += width) {
         mesh.positions.push_back({value(i), value(i + 1), value(i + 2)});
         if (coordinates == 4) mesh.w.push_back(value(i + 3));
@@ -126,6 +134,16 @@ Mesh mesh_of_json(const std::string& path, std::optional<pipeline::View>& view) 
 }  // namespace
 
 bool is_plain_triangles(const std::string& path) { return path.ends_with(".npy") || path.ends_with(".json"); }
+
+bool is_array_of_triangles(const std::string& path) {
+    std::error_code error;
+    if (!path.ends_with(".npy") || !std::filesystem::is_regular_file(path, error)) return false;
+    try {
+        return coordinates_of(read_npy(path)) != 0;
+    } catch (const InputError&) {
+        return false;  // its reader says what is wrong with it
+    }
+}
 
 Scene load_plain_triangles(const std::string& path, const SceneOptions& options) {
     const FloatEnvironment environment;

@@ -17,6 +17,8 @@ namespace strata::scenes {
 
 // By the name's ending: .npy or .json.
 [[nodiscard]] bool is_plain_triangles(const std::string& path);
+// True for a .npy file of corners: 32-bit floats in one of the shapes that are loaded. Other arrays are pictures.
+[[nodiscard]] bool is_array_of_triangles(const std::string& path);
 
 // InputError names the file and the JSON pointer or element.
 [[nodiscard]] Scene load_plain_triangles(const std::string& path, const SceneOptions& options);

@@ -15,6 +15,7 @@
 #include "scenes/files/image_io.h"
 #include "scenes/models/models.h"
 #include "scenes/packs/pack_scene.h"
+#include "scenes/packs/plain_triangles.h"
 #include "tools/oracle/drawings.h"
 #include "tools/oracle/judge/forgotten.h"
 #include "tools/oracle/judge/samples_verdict.h"
@@ -32,7 +33,9 @@ namespace strata::tools {
 
 bool is_scene(const std::string& reference) {
     if (reference == "-") return true;  // a glTF file from standard input
-    if (scenes::is_procedural(reference) || scenes::is_pack(reference) || scenes::is_model(reference)) return true;
+    if (scenes::is_procedural(reference) || scenes::is_pack(reference) || scenes::is_model(reference) ||
+        scenes::is_array_of_triangles(reference))
+        return true;
     std::string ending = std::filesystem::path(reference).extension().string();
     std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
     return ending == ".gltf" || ending == ".glb" || ending == ".json";

@@ -28,6 +28,17 @@ std::string triangles_npy(std::vector<std::size_t> shape) {
 
 }  // namespace
 
+TEST_CASE("an array of corners is told from a picture by its shape and its element") {
+    const strata::test::OwnFolder folder;
+    CHECK(is_array_of_triangles(written(folder, "a.npy", triangles_npy({2, 3, 7}))));
+    CHECK(is_array_of_triangles(written(folder, "b.npy", triangles_npy({1, 3, 4}))));
+    CHECK_FALSE(is_array_of_triangles(written(folder, "c.npy", triangles_npy({48, 64, 4}))));
+    CHECK_FALSE(is_array_of_triangles(written(folder, "d.npy", triangles_npy({2, 3, 5}))));
+    CHECK_FALSE(is_array_of_triangles(written(folder, "e.npy", "no array")));
+    CHECK_FALSE(is_array_of_triangles(folder.path() + "/missing.npy"));
+    CHECK_FALSE(is_array_of_triangles(folder.path()));
+}
+
 TEST_CASE("triangles are read from a .npy file with their numbers unchanged") {
     const strata::test::OwnFolder folder;
     const Scene plain = load_scene(written(folder, "a.npy", triangles_npy({2, 3, 3})), {});

@@ -126,7 +126,7 @@ std::string codes(double n) { return fmt::format("{:.0f} code{} allowed", n, n <
 
 std::string doubt_of(const SceneFragments& scene, const Colors& candidate, const CheckedAccount& right,
                      const Families& definite) {
-    constexpr double most = 5, narrow = 1.5, most_slope = 0.45;
+    constexpr double most = most_codes_of_right, narrow = 1.5, most_slope = 0.45;
     constexpr std::size_t fewest = 64;
     if (right.needed <= narrow) return "";
     const std::vector<Structured> all = structures(scene, candidate, right);

@@ -19,10 +19,12 @@ namespace strata::oracle::verdict {
 class SceneFragments;
 class Colors;
 
+inline constexpr double most_codes_of_right = 5;
+
 // The codes that rounding needs under so many layers.
 [[nodiscard]] constexpr double most_codes(std::size_t layers) noexcept {
     const double wanted = static_cast<double>((layers + 1) / 2 + 1);
-    return wanted < 5 ? wanted : 5;
+    return wanted < most_codes_of_right ? wanted : most_codes_of_right;
 }
 
 // The first reason, as words after "not decided: "; empty if there is none.

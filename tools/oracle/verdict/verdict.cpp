@@ -386,6 +386,12 @@ Verdict found_at_length(SceneFragments& scene, const Colors& candidate, const Se
 
 Verdict judge_at_length(SceneFragments& scene, const Colors& candidate, const SearchLimits& limits) {
     Verdict verdict = found_at_length(scene, candidate, limits);
+    // Under rounding as wide as this a mistake explains a picture that has another one.
+    const std::size_t wide = std::erase_if(verdict.explanations, [](const CheckedAccount& c) {
+        return has_codes(c.account.hypothesis.result.storage) && c.observed > most_codes_of_right;
+    });
+    if (wide > 0 && verdict.explanations.empty() && verdict.right.is_whole())
+        verdict.doubt = "a mistake explains the picture better, but only with rounding of more than 5 codes";
     sort_explanations(verdict);
     return verdict;
 }
