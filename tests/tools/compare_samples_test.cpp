@@ -55,7 +55,7 @@ TEST_CASE("a resolved picture is right with the origin at either corner and with
     for (const std::string samples : {"2", "4", "8"})
         for (const std::string more :
              {"--origin lower-left", "--origin lower-left --shading pixel", "--shading pixel"}) {
-            const std::string options = " --size 32x24 --profile ideal --color-format rgba8 --samples " + samples;
+            const std::string options = " --size 32x49 --profile ideal --color-format rgba8 --samples " + samples;
             REQUIRE(shell(folder,
                           "strata render " + scene + options + " --algorithm dual --no-audit -q -o port.png " + more)
                         .status == 0);

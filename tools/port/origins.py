@@ -17,7 +17,7 @@ import packs  # noqa: E402
 
 ALGORITHMS = ["front_to_back", "dual"]
 SIZE = ["--size", "64x49"]
-SCENES = [["teapot", "--alpha", "0.5"], ["random:seed=3,triangles=60"], ["planes:count=12"], ["hard:case=opaque-crossing"], ["showroom"]]
+SCENES = [["teapot", "--alpha", "0.5"], ["random:seed=3,triangles=60"], ["planes:count=12"], ["hard:case=opaque-crossing"]]
 SAMPLES = 4  # llvmpipe has no other number
 
 

@@ -28,8 +28,7 @@ verdict::Samples samples_of(const RunInput& input, const OtherRules& rules,
         throw pipeline::Refused{rules.profile, *std::move(lacking)};
     verdict::Samples samples;
     for (int number = 0; number < count; ++number) {
-        peeling::RenderOptions options =
-            within ? verdict::scissored(input.options, *within, rules.profile.origin) : input.options;
+        peeling::RenderOptions options = within ? verdict::scissored(input.options, *within) : input.options;
         options.raster.interpolation = rules.interpolation;
         pipeline::set_sample(options.raster, rules.profile.sample_positions, count, static_cast<std::size_t>(number));
         samples.push_back(

@@ -34,7 +34,7 @@ constexpr std::size_t few_wrong = 16;
 // True if a definite hypothesis explains the rectangle. A hypothesis that fails there fails for the whole picture, so
 // the rest need not be rendered.
 bool may_be_right(const RunInput& input, std::uint64_t bytes, const Colors& candidate, const rasterizer::Rect& rect) {
-    const peeling::RenderOptions options = scissored(input.options, rect, input.profile.origin);
+    const peeling::RenderOptions options = scissored(input.options, rect);
     const SceneFragments part{{input.list, input.view, input.profile, options, input.sampling, input.space}, bytes};
     Sample sample{part.setting()};
     std::mutex mutex;

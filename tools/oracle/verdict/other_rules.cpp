@@ -106,12 +106,9 @@ rasterizer::Rect most_wrong(const std::vector<std::uint32_t>& wrong_pixels, int 
     return {x * side, y * side, (x + 1) * side, (y + 1) * side};
 }
 
-peeling::RenderOptions scissored(peeling::RenderOptions options, const rasterizer::Rect& part, Origin origin) {
-    const int height = options.height;
-    const rasterizer::Rect in_memory =
-        origin == Origin::upper_left ? part : rasterizer::Rect{part.x0, height - part.y1, part.x1, height - part.y0};
+peeling::RenderOptions scissored(peeling::RenderOptions options, const rasterizer::Rect& part) {
     auto& scissor = options.raster.scissor;
-    scissor = scissor ? rasterizer::intersection(*scissor, in_memory) : in_memory;
+    scissor = scissor ? rasterizer::intersection(*scissor, part) : part;
     return options;
 }
 

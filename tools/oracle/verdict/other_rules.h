@@ -34,8 +34,7 @@ struct OtherRules {
 // be tried on the whole picture.
 [[nodiscard]] rasterizer::Rect most_wrong(const std::vector<std::uint32_t>& wrong_pixels, int width);
 
-// The options with a scissor of that part of the picture.
-[[nodiscard]] peeling::RenderOptions scissored(peeling::RenderOptions options, const rasterizer::Rect& part,
-                                               pipeline::Origin origin);
+// The options with a scissor of that part of the picture; rows are counted from the top with either origin.
+[[nodiscard]] peeling::RenderOptions scissored(peeling::RenderOptions options, const rasterizer::Rect& part);
 
 }  // namespace strata::oracle::verdict
