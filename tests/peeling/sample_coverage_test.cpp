@@ -4,6 +4,7 @@
 
 #include "peeling/sampled_renderer.h"
 #include "tests/peeling/rendering.h"
+#include "tests/support/random_triangles.h"
 
 namespace {
 
@@ -73,6 +74,24 @@ TEST_CASE("sample coverage and mask leave out the samples that they do not name"
     CHECK(covered_samples(0.5f, 4, {.mask = 0b1010}) == std::vector{1, 3});
     CHECK(covered_samples(0.5f, 4, {.value = 0.5f, .mask = 0b1010}) == std::vector{1});
     CHECK(covered_samples(0.5f, 4, {.by_alpha = true, .mask = 0b1110}) == std::vector{1});
+}
+
+TEST_CASE("opaque surfaces keep the samples that a mask or a coverage leaves out") {
+    const TriangleScene scene = opaque_only(1410, 30);
+    RenderOptions options;
+    options.width = 21, options.height = 17;
+    const auto drawn = [&](const SampleCoverage& coverage) {
+        options.raster.sample_coverage = coverage;
+        SampledRenderer renderer{scene.list, scene.view, *find_profile("geforce8"), options, {.samples = 4}};
+        std::vector<Image> colors;
+        CHECK(renderer.render(*find_algorithm("front_to_back"), {}, &colors).outcome == strata::peeling::Outcome::done);
+        return colors;
+    };
+    const std::vector<Image> all = drawn({});
+    REQUIRE(all.size() == 4);
+    CHECK(std::ranges::any_of(all[3].codes, [](std::uint32_t code) { return code != 0 && code != 255; }));
+    CHECK(drawn({.mask = 0b0001}) == all);
+    CHECK(drawn({.value = 0.25f}) == all);
 }
 
 TEST_CASE("llvmpipe rounds the share of alpha up and that of sample coverage down") {

@@ -310,12 +310,14 @@ TEST_CASE("counts of a sampled frame are the sums and greatest counts of its sam
         options.counters = true;
         for (const Machine& one : {machine, peel}) {
             const auto result = sampled(scene, one, options, 4).result;
-            std::uint64_t order_errors = 0, passed = 0;
+            std::uint64_t order_errors = 0, passed = 0, fragments = 0, visited = 0;
             int iterations = 0, full_screen = 0;
             for (std::size_t s = 0; s < 4; ++s) {
                 const RenderResult own = own_frame(scene, one, options, 4, s);
                 order_errors += own.audit.order_errors.value_or(0);
                 passed += own.frame.counters->fragments_rasterized;
+                fragments += own.frame.work.fragments;
+                visited += own.frame.work.visited;
                 has_greater_before_last |= s == 3 && own.frame.iterations < iterations;
                 iterations = std::max(iterations, static_cast<int>(own.frame.iterations));
                 full_screen = std::max(full_screen, static_cast<int>(own.frame.passes.full_screen));
@@ -323,6 +325,8 @@ TEST_CASE("counts of a sampled frame are the sums and greatest counts of its sam
             INFO(seed << ' ' << one.algorithm);
             CHECK(result.audit.order_errors == order_errors);
             CHECK(result.frame.counters->fragments_rasterized == passed);
+            CHECK(result.frame.work.fragments == fragments);
+            CHECK(result.frame.work.visited == visited);
             CHECK(static_cast<int>(result.frame.iterations) == iterations);
             CHECK(static_cast<int>(result.frame.passes.full_screen) == full_screen);
         }

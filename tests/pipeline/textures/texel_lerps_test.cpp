@@ -193,6 +193,21 @@ TEST_CASE("a lookup by codes is within 1.5 codes of exact arithmetic and one by 
     CHECK(cases > 17000);
 }
 
+TEST_CASE("only sizes that are no power of two take the fraction of a coordinate before they repeat") {
+    // The fraction of -2^-30 is 1 in binary32: the texel after the last one, which is the first.
+    const auto red = [](int width, Rule rule) {
+        const Texture texture = texture_of(width, 1, TextureFilter::nearest, TextureWrap::repeat);
+        return sampled(texture, rule, -0x1p-30f, 0.5f)[0] * 255;
+    };
+    const auto code = [](int i) { return Approx(static_cast<std::uint8_t>(37 * i)); };
+    for (const Rule rule : {Rule::code_lerps, Rule::code_lerps_fused}) {
+        CHECK(red(8, rule) == code(7));
+        CHECK(red(7, rule) == code(0));
+    }
+    CHECK(red(8, Rule::single_lerps) == code(7));
+    CHECK(red(7, Rule::single_lerps) == code(6));
+}
+
 TEST_CASE("an 8-bit lookup by lerps is a code times the binary32 of 1/255 and decoded texels are mixed as floats") {
     const float of_code = 1.0f / 255.0f;
     Texture texture = texture_of(2, 1, TextureFilter::linear, TextureWrap::clamp_to_edge);

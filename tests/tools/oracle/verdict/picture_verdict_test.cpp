@@ -80,6 +80,17 @@ TEST_CASE("a picture from a camera half a degree off is not right at all pixels"
     }
 }
 
+TEST_CASE("a background that differs in one channel alone is named") {
+    OpenedScene opened{"teapot", 48, 36};
+    for (int channel = 0; channel < 3; ++channel) {
+        OpenedScene other{"teapot", 48, 36};
+        other.options.background[static_cast<std::size_t>(channel)] = 0.9f;
+        const oracle::Target picture = *other.picture("dual", pipeline::Format::rgba8);
+        const std::string codes[] = {"229, 77, 128", "51, 229, 128", "51, 77, 229"};
+        CHECK(first_line_on(opened, picture) == "wrong: the background is " + codes[channel] + " of 255");
+    }
+}
+
 TEST_CASE("a file for display of a linear frame holds encoded values") {
     OpenedScene linear{"showroom", 32, 24};
     linear.open_linear("showroom");
