@@ -53,7 +53,7 @@ TEST_CASE("a verdict writes a test case and a heat map and the pictures with one
     }
 }
 
-TEST_CASE("--exact holds a resolved picture of several samples to every bit") {
+TEST_CASE("the option --exact holds a resolved picture of several samples to every bit") {
     const Folder folder;
     draw_planes(folder, "--samples 4 --algorithm front_to_back -o four.png");
     draw_planes(folder, "--algorithm front_to_back -o one.png");
