@@ -149,6 +149,9 @@ TEST_CASE("an unknown or impossible mistake and a command without output are rej
           "strata: --mistake: expected a mistake that this scene, algorithm and profile have room for, found "
           "'texture_lost'\n");
     CHECK(run_strata(folder, {"reduce", "pack", "true", "-o", "small"}).err ==
+          "strata: PACK: expected a pack's folder, which `strata golden pack -o PACK` writes, found 'pack'\n");
+    REQUIRE(run_strata(folder, {"golden", "planes", "--size", "8x8", "--algorithm", "dual", "-o", "pack"}).status == 0);
+    CHECK(run_strata(folder, {"reduce", "pack", "true", "-o", "small"}).err ==
           "strata: COMMAND: expected {pack} in it, found 'true'\n");
     CHECK_FALSE(std::filesystem::exists(folder / "a.png"));
 }

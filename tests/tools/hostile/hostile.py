@@ -7,7 +7,8 @@
 
 The attempts are derived from the documentation, not from the sources. Each runs in a separate folder, with files outside of it that an attacker would
 want to read or write. An attempt has succeeded, and this script exits with 1, if the program
-  - wrote, changed or removed anything but the output that the command names, or left an output of a run that failed;
+  - wrote, changed or removed anything but the output that the command names, or left an output of a run that failed, except
+    the report of --junit, which says that it failed;
   - used a file outside of the folder (the attempt states this: such a file would be usable, so the command must fail), or used the network;
   - executed a word of the file as a command;
   - ended by a signal or with the status of a system failure, took more than 20 s of processor time, or 600 MB, or more than 5 minutes;
@@ -153,8 +154,9 @@ def faults(program, attempt, root):
         outputs = {name for name in changed if re.match(r"here/out(?=[./]|$)", name) and name not in before}
         if changed - outputs:
             yield about(f"changed {sorted(changed - outputs)[:3]}")
-        if outputs and status == 2:
-            yield about(f"left {sorted(outputs)[:3]}")
+        reports = {f"here/{file}" for option, file in zip(command, command[1:]) if option == "--junit"}
+        if outputs - reports and status == 2:
+            yield about(f"left {sorted(outputs - reports)[:3]}")
         for name in sorted(outputs):
             yield from map(about, document_faults(place / name))
         for name, written in (("standard output", out), ("standard error", err)):

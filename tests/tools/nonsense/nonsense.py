@@ -40,6 +40,7 @@ NEEDS = {
 ACCEPTED = {
     ("*", "--fragment-memory", "4294967297"): "a size of 4 GiB",
     ("*", "--fragment-memory", "9223372036854775808"): "a limit that no machine reaches",
+    ("*", "--max-memory", "9223372036854775808"): "a limit that no machine reaches",
     ("*", "--alpha", "-0"): "zero",
     ("*", "--compare-epsilon", "-0"): "zero",
     ("*", "--overestimation", "-0"): "zero",
