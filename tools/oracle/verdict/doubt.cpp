@@ -129,6 +129,8 @@ std::string doubt_of(const SceneFragments& scene, const Colors& candidate, const
     constexpr double most = most_codes_of_right, narrow = 1.5, most_slope = 0.45;
     constexpr std::size_t fewest = 64;
     if (right.needed <= narrow) return "";
+    if (has_codes(right.account.hypothesis.result.storage) && right.observed > most + 0.5)
+        return fmt::format("{}, where a right port needs at most {:.0f}", codes(right.observed), most);
     const std::vector<Structured> all = structures(scene, candidate, right);
     const Hypothesis hypothesis = nearest(definite, all);
     const Residuals found = residuals(hypothesis, all);

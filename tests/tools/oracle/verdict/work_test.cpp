@@ -88,7 +88,9 @@ TEST_CASE("a stopped search reports no mistake and says that it was stopped") {
 TEST_CASE("a picture with wide intervals has no verdict if the search is stopped") {
     const OpenedScene opened{"hard:case=inside-out", 8, 8};
     const oracle::Target picture = picture_of_port(opened, port_that_cuts(), {});
-    CHECK(counted(opened, picture).verdict.is_right);
+    // A port that cuts the blends of so many layers needs more codes than are called right.
+    CHECK(counted(opened, picture).verdict.doubt.find("codes allowed, where a right port needs at most 5") !=
+          std::string::npos);
     const Verdict stopped = counted(opened, picture, nothing).verdict;
     CHECK_FALSE(stopped.is_right);
     CHECK(stopped.is_undecided());
