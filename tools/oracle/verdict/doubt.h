@@ -1,8 +1,9 @@
 // tools/oracle/verdict/doubt.h - reasons not to call a picture right although one hypothesis reaches every pixel.
 //
-// Rule     With many layers a wide hypothesis reaches nearly any value. Rounding is told from a mistake by three
-//          properties: it moves a value by a few codes, whatever the number of layers; over many pixels its mean is
-//          near 0; and it does not grow with the layers, or with what they let through. Distances are measured from
+// Rule     A picture of codes with a value more than 5 codes from the exact one is doubted, whatever its hypothesis.
+//          Otherwise: with many layers a wide hypothesis reaches nearly any value. Rounding is told from a mistake by
+//          three properties: it moves a value by a few codes, whatever the number of layers; over many pixels its mean
+//          is near 0; and it does not grow with the layers, or with what they let through. Distances are measured from
 //          the middle of the values under the definite hypothesis without slack that is nearest to the picture.
 // Numbers  40 right pictures of engines need at most 4 codes, and right pictures of other precisions 5. Two pixels in
 //          10,000 may need more than their layers ask for. A mean of half a code and a slope of 0.45 codes per standard
