@@ -294,9 +294,11 @@ def main():
     options = parse_arguments()
     with tempfile.TemporaryDirectory() as folder:
         scenes = scenes_of(options, folder)
-        for path, text in ((pathlib.Path(options.out), page(options, scenes)), (ROOT / "build/bench/performance.txt", tables(options, scenes, folder))):
+        written = ((pathlib.Path(options.out), lambda: page(options, scenes)),
+                   (ROOT / "build/bench/performance.txt", lambda: tables(options, scenes, folder)))
+        for path, text in written:
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text)
+            path.write_text(text())
             print(f"wrote {path}", file=sys.stderr)
 
 
