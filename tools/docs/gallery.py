@@ -4,12 +4,13 @@
     tools/docs/gallery.py build/release                 writes them again
     tools/docs/gallery.py build/release --check [SCENE] compares them, or one scene's, with the program's pictures; exit status 1 if they differ
 
-A picture of the gallery is a strip: for each scene the picture of an algorithm, above four times its difference from the exact A-buffer. Needs no
-package.
+A picture of the gallery is a strip: for each scene the picture of an algorithm, above four times its difference from the exact A-buffer. Algorithms
+that draw the same strip share the file of the first of them. Needs no package.
 """
 import json
 import os
 import re
+import shutil
 import struct
 import subprocess
 import sys
@@ -89,9 +90,10 @@ def caption(entry):
     return ", ".join(said)
 
 
-def row_of(algorithm, captions):
+def row_of(algorithm, drawn_by, captions):
     captions = captions if len(set(captions)) > 1 else [f"{captions[0]} everywhere"]
-    return f"| `{algorithm}` | ![{algorithm}](pictures/gallery/{algorithm}.png) | {'; '.join(captions)} |"
+    strip = f"![{algorithm}](pictures/gallery/{algorithm}.png)" if drawn_by == algorithm else f"as `{drawn_by}`"
+    return f"| `{algorithm}` | {strip} | {'; '.join(captions)} |"
 
 
 def captions_in(cell):
@@ -102,11 +104,13 @@ def captions_in(cell):
 def page_of(shown):
     lines = ["# Gallery", "",
              "Every built-in scene by every algorithm on the profile `ideal`. A strip shows the scenes side by side: the picture above four times its",
-             "difference from the exact A-buffer. The figures, in the order of the scenes: the greatest difference of a channel in 1/255, fragments in a",
-             "wrong order, fragments lost at equal depths. `tools/docs/gallery.py build/release` writes this page.", ""]
+             "difference from the exact A-buffer; \"as NAME\": the same bytes as that algorithm's strip. The figures, in the order of the scenes: the greatest",
+             "difference of a channel in 1/255, fragments in a wrong order, fragments lost at equal depths. `tools/docs/gallery.py build/release` writes this page.", ""]
     lines += [f"- **{name}**: `strata render {' '.join(arguments).replace(FOLDER + os.sep, 'tools/docs/')}`: {what}." for name, arguments, what in SCENES]
     lines += ["", "| algorithm | " + ", ".join(name for name, _, _ in SCENES) + " | differences |", "|---|---|---|"]
-    lines += [row_of(entry["algorithm"], [caption(shown[name][i][0]) for name, _, _ in SCENES]) for i, (entry, _, _) in enumerate(shown[SCENES[0][0]])]
+    shared = first_with_strip(shown)
+    for i, (entry, _, _) in enumerate(shown[SCENES[0][0]]):
+        lines.append(row_of(entry["algorithm"], shared[entry["algorithm"]], [caption(shown[name][i][0]) for name, _, _ in SCENES]))
     return "\n".join(lines) + "\n"
 
 
@@ -121,15 +125,24 @@ def strips(shown):
         yield entry["algorithm"], width * len(SCENES), [b"".join(rows) for rows in zip(*parts)]
 
 
+def first_with_strip(shown):
+    """By algorithm: the first algorithm whose strip has the same bytes."""
+    first = {}
+    return {algorithm: first.setdefault(b"".join(rows), algorithm) for algorithm, _, rows in strips(shown)}
+
+
 def check(shown, whole):
     """The parts of the gallery that differ from the program's pictures."""
     wrong = []
-    kept = dict(re.findall(r"^\| `(\w+)` \| .* \| (.*) \|$", whole, re.MULTILINE))
+    kept, drawn_by = {}, {}
+    for algorithm, strip, captions in re.findall(r"^\| `(\w+)` \| (.*) \| (.*) \|$", whole, re.MULTILINE):
+        kept[algorithm] = captions
+        drawn_by[algorithm] = re.sub(r"^as `(\w+)`$|^!\[(\w+)\].*$", r"\1\2", strip)
     for name, pictures in shown.items():
         place = [scene for scene, _, _ in SCENES].index(name)
         for entry, width, rows in pictures:
             algorithm = entry["algorithm"]
-            path = picture_path(algorithm)
+            path = picture_path(drawn_by.get(algorithm, algorithm))
             strip = rows_of_png(path) if os.path.exists(path) else (0, [])
             part = slice(3 * width * place, 3 * width * (place + 1))
             if strip[0] != width * len(SCENES) or [row[part] for row in strip[1]] != rows:
@@ -137,7 +150,7 @@ def check(shown, whole):
             elif captions_in(kept.get(algorithm, ""))[place:place + 1] != [caption(entry)]:
                 wrong.append(f"gallery.md: expected {caption(entry)} for {name} by {algorithm}")
     files = os.listdir(PICTURES)
-    wrong += [f"{PICTURES}: {file} is no algorithm's" for file in files if file.removesuffix(".png") not in kept]
+    wrong += [f"{PICTURES}: {file} stands in no row of gallery.md" for file in files if file.removesuffix(".png") not in drawn_by.values()]
     size = sum(os.path.getsize(os.path.join(PICTURES, file)) for file in files)
     return wrong + ([f"{PICTURES}: expected at most 2 MiB, found {size} bytes"] if size > 2 << 20 else [])
 
@@ -153,8 +166,12 @@ def main():
             wrong = check(shown, file.read())
         print("\n".join(wrong) if wrong else f"{sum(map(len, shown.values()))} pictures are what the program draws")
         return 1 if wrong or not shown else 0
-    os.makedirs(PICTURES, exist_ok=True)
+    shutil.rmtree(PICTURES, ignore_errors=True)
+    os.makedirs(PICTURES)
+    shared = first_with_strip(shown)
     for algorithm, width, rows in strips(shown):
+        if shared[algorithm] != algorithm:
+            continue
         with open(picture_path(algorithm), "wb") as file:
             file.write(png_of(width, rows))
     with open(os.path.join(FOLDER, "gallery.md"), "w", encoding="utf-8") as file:
