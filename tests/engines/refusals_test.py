@@ -17,7 +17,7 @@ CASES = [
     (["planes:count=2", "--alpha", "0.5"], "/state/alpha: expected null, found {"),
     (["planes:count=2", "--depth-order", "greater"], '/state/depth_order: expected "less", found "greater"'),
     (["planes:count=2", "--clip-depth", "zero-to-one"], '/state/clip_depth: expected "minus_one_to_one", found "zero_to_one"'),
-    (["planes:count=2", "--colour", "linear"], "/scene: expected encoded colours without textures"),
+    (["planes:count=2", "--color-space", "linear"], "/scene: expected encoded colours without textures"),
     (["showroom"], "/scene: expected encoded colours without textures"),
     (["shadow-demo"], "/scene: expected encoded colours without textures"),
     (["planes:count=2", "--depth-range", "0.25,0.75"], "/state/depth_range: expected 0 to 1"),

@@ -158,9 +158,10 @@ TEST_CASE("an unknown or impossible mistake and a command without output are rej
 
 TEST_CASE("mistakes lists the catalogue and the suite and the suite's commands run") {
     const Folder folder;
-    const nlohmann::json list = nlohmann::json::parse(run_strata(folder, {"mistakes", "--json"}).out);
+    const nlohmann::json list = nlohmann::json::parse(run_strata(folder, {"diagnose", "--list", "--json"}).out);
     CHECK(list.size() >= 40);
-    const nlohmann::json suite = nlohmann::json::parse(run_strata(folder, {"mistakes", "--suite", "--json"}).out);
+    const nlohmann::json suite =
+        nlohmann::json::parse(run_strata(folder, {"diagnose", "--list", "--suite", "--json"}).out);
     for (const nlohmann::json& scene : suite) {
         INFO(scene["command"]);
         CHECK(shell(folder, scene["command"].get<std::string>() + " --no-audit").status == 0);

@@ -1,5 +1,5 @@
-// Tests `strata digest` on PNG files that the test writes byte by byte: equal codes have equal digests however the file
-// is compressed, and one changed bit changes the digest. The format and the size printed are those written.
+// Tests `strata info --digests` on PNG files that the test writes byte by byte: equal codes have equal digests however
+// the file is compressed, and one changed bit changes the digest. The format and the size printed are those written.
 #include <zlib.h>
 
 #include <catch2/catch.hpp>
@@ -63,7 +63,7 @@ Samples some_samples(int channels, int bits) {
 
 // The line below the column titles.
 std::string digest_line(const Folder& folder, const std::string& file) {
-    const CommandResult ended = run_strata(folder, {"digest", file});
+    const CommandResult ended = run_strata(folder, {"info", "--digests", file});
     INFO(ended.err);
     REQUIRE(ended.status == 0);
     return lines_of(ended.out).at(1);
@@ -88,9 +88,9 @@ TEST_CASE("the digest of a grey or RGB or 16-bit PNG file is that of its own cod
         samples.codes.back() ^= 1;
         write_samples(folder / "c.png", samples);
         CHECK(digest_line(folder, "c.png").substr(0, 32) != line.substr(0, 32));
-        const CommandResult channel_digests = run_strata(folder, {"digest", "--channels", "a.png"});
+        const CommandResult channel_digests = run_strata(folder, {"info", "--digests", "--channels", "a.png"});
         CHECK(lines_of(channel_digests.out).size() == static_cast<std::size_t>(channels) + 1);
-        CHECK(run_strata(folder, {"digest", "--expect", line.substr(0, 32), "a.png"}).status == 0);
+        CHECK(run_strata(folder, {"info", "--digests", "--expect", line.substr(0, 32), "a.png"}).status == 0);
     }
     CHECK(digests.size() == 4);
 }

@@ -1,4 +1,4 @@
-// Tests `strata effects` on scenes whose content determines the effects that are needed.
+// Tests `strata bench --per-effect` on scenes whose content determines the effects that are needed.
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@ using nlohmann::ordered_json;
 namespace {
 
 ordered_json plans(const Folder& folder, std::vector<std::string> words) {
-    words.insert(words.begin(), "effects");
+    words.insert(words.begin(), {"bench", "--per-effect"});
     words.insert(words.end(), {"--size", "64x48", "--repeat", "1", "--json"});
     const CommandResult ended = run_strata(folder, words);
     INFO(ended.err);

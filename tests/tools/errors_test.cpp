@@ -135,7 +135,7 @@ TEST_CASE("a wrong argument gives exit status 2 and one error message with the e
         {{"render"}, "strata: SCENE is missing; strata render --help says more"},
         {{"render", "teapot", "bunny"}, "strata: strata render has no use for the argument 'bunny'"},
         {{"render", "none.glb"}, "strata: none.glb: no such file"},
-        {{"digest", "none.exr"}, "strata: none.exr: no such file"},
+        {{"info", "--digests", "none.exr"}, "strata: none.exr: no such file"},
         {{"layers", "teapot"}, "strata: ..."},
         {{"layers", "teapot", "-o", "x.exr", "--deep", "x.exr"}, "strata: --deep: 'x.exr' is the file of -o already"},
         {{"layers", "teapot", "-o", "x.exr", "--deep", "./x.exr"},
@@ -157,7 +157,7 @@ TEST_CASE("a wrong argument gives exit status 2 and one error message with the e
          "shadow-demo, showroom or hard), found 'teapt' (did you mean 'teapot'?)"},
         {{"invariance", "teapot"}, "strata: -o is missing: the folder for the results"},
         {{"invariance", "teapot", "-o", ""}, "strata: -o needs a folder"},
-        {{"profiles", "ideel"},
+        {{"list", "profiles", "ideel"},
          "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, "
          "softpipe, swiftshader, direct3d11, or a JSON file, found "
          "'ideel' "
@@ -191,8 +191,8 @@ TEST_CASE(
     CHECK(std::filesystem::is_empty(folder / "real"));
     std::filesystem::create_symlink("x.exr", folder / "real/y.exr");
     CHECK(with("linked/y.exr").status == 0);
-    CHECK(run_strata(folder, {"digest", "real/x.exr"}).out.find("color") != std::string::npos);
-    CHECK(run_strata(folder, {"digest", "real/y.exr"}).out.find("fragments") != std::string::npos);
+    CHECK(run_strata(folder, {"info", "--digests", "real/x.exr"}).out.find("color") != std::string::npos);
+    CHECK(run_strata(folder, {"info", "--digests", "real/y.exr"}).out.find("fragments") != std::string::npos);
 }
 
 TEST_CASE(

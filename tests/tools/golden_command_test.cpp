@@ -43,7 +43,8 @@ TEST_CASE("a pack passes its check and replaces a scene and its options in every
     }
     // Options on the command line take precedence.
     CHECK(shell(folder,
-                "strata render pack --size 8x8 --color-format rgba16f -o small.exr && strata digest --json small.exr")
+                "strata render pack --size 8x8 --color-format rgba16f -o small.exr && strata info --digests --json "
+                "small.exr")
               .out.find("rgba16f") != std::string::npos);
     CHECK(shell(folder,
                 "strata golden teapot --size 12x9 --algorithm dual --color-format rgba16f --back-format rgba8 "

@@ -27,7 +27,8 @@ TEST_CASE("the image module is found in the program's folder and in STRATA_IMAGE
     const auto module_folder = GENERATE(as<std::string>{}, "bin", "bin/" STRATA_IMAGE_FOLDER);
     const Folder folder;
     install(folder, module_folder);
-    const CommandResult ended = shell(folder, std::string{"bin/strata"} + render + " && bin/strata digest out.png");
+    const CommandResult ended =
+        shell(folder, std::string{"bin/strata"} + render + " && bin/strata info --digests out.png");
     INFO(ended.err);
     CHECK(ended.status == 0);
     CHECK(ended.out.find("rgba8") != std::string::npos);

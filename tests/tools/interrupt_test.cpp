@@ -14,8 +14,8 @@ TEST_CASE("an interrupt at any moment gives exit status 130 and leaves no partia
             folder, {"render", "random:seed=3,triangles=20000", "--size", "1024x1024", "--no-audit", "-o", "out.exr"},
             {.interrupt_after_ms = delay});
         const auto files = folder.files();
-        const bool whole =
-            files == std::vector<std::string>{"out.exr"} && run_strata(folder, {"digest", "out.exr"}).status == 0;
+        const bool whole = files == std::vector<std::string>{"out.exr"} &&
+                           run_strata(folder, {"info", "--digests", "out.exr"}).status == 0;
         interrupted += ended.status == 130 ? 1 : 0;
         const bool right = (ended.status == 130 && (files.empty() || whole)) || (ended.status == 0 && whole);
         if (!right && wrong.empty())

@@ -39,7 +39,7 @@ TEST_CASE("quiet omits only warnings and notes and the table next to a picture")
     CHECK(quiet.err.empty());
     CHECK(quiet.out.empty());
     CHECK(content_of(folder / "a.png") == content_of(folder / "b.png"));
-    CHECK(run_strata(folder, {"digest", "-q", "b.png"}).out == run_strata(folder, {"digest", "b.png"}).out);
+    CHECK(run_strata(folder, {"digest", "-q", "b.png"}).out == run_strata(folder, {"info", "--digests", "b.png"}).out);
     const CommandResult wrong = run_strata(folder, {"-q", "render", "none.glb"});
     CHECK(wrong.status == 2);
     CHECK(wrong.err.starts_with("strata: none.glb: "));
@@ -82,13 +82,13 @@ TEST_CASE("a terminal gets colours unless NO_COLOR or --color disables them and 
     const Folder folder;
     const std::string piped = run_strata(folder, {"rendr"}).err;
     CHECK(piped.find(escape) == std::string::npos);
-    CHECK(
-        run_strata(folder, {"--color", "always", "digest", "none"}).err.starts_with("\x1b[1;31mstrata:\x1b[0m none: "));
-    const std::string always = run_strata(folder, {"scenes", "--color", "always"}).out;
+    CHECK(run_strata(folder, {"--color", "always", "info", "--digests", "none"})
+              .err.starts_with("\x1b[1;31mstrata:\x1b[0m none: "));
+    const std::string always = run_strata(folder, {"list", "scenes", "--color", "always"}).out;
     CHECK(always.starts_with("\x1b[1mscene"));
     std::string without = always;
     for (const std::string code : {"\x1b[1m", "\x1b[0m"}) without.erase(without.find(code), code.size());
-    CHECK(without == run_strata(folder, {"scenes"}).out);
+    CHECK(without == run_strata(folder, {"list", "scenes"}).out);
     if (on_terminal(folder, "true") != on_terminal(folder, "echo x")) {
         CHECK(on_terminal(folder, "strata rendr").find("\x1b[1;31mstrata:") != std::string::npos);
         CHECK(on_terminal(folder, "strata rendr", "1").find(escape) == std::string::npos);
@@ -128,8 +128,8 @@ TEST_CASE("no control character of a name or of a file reaches either stream and
     std::ofstream(folder / "mesh.gltf")
         << R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"name":"m\u001b[2J\u009b","primitives":[]}]})";
     for (const std::vector<std::string>& words :
-         std::vector<std::vector<std::string>>{{"digest", evil},
-                                               {"digest", "--json", evil},
+         std::vector<std::vector<std::string>>{{"info", "--digests", evil},
+                                               {"info", "--digests", "--json", evil},
                                                {"info", evil},
                                                {"compare", evil, evil},
                                                {"scene", evil},
@@ -144,7 +144,7 @@ TEST_CASE("no control character of a name or of a file reaches either stream and
         INFO(words[0] << " " << both);
         for (const std::string raw : {"\x1b", "\x07", "\x7f", "\xc2\x9b"}) CHECK(both.find(raw) == std::string::npos);
     }
-    CHECK(run_strata(folder, {"digest", "--json", evil}).out.find(R"("e\u001b[2J\u0007\u007f\u009b.png")") !=
+    CHECK(run_strata(folder, {"info", "--digests", "--json", evil}).out.find(R"("e\u001b[2J\u0007\u007f\u009b.png")") !=
           std::string::npos);
     CHECK(strata::scenes::shortened("\u00e4bcdef", 6) == "\u00e4bcdef");
     CHECK(strata::scenes::shortened("\u00e4bcdef\xff", 6) == "\u00e4bc...");

@@ -25,7 +25,8 @@ TEST_CASE("passes writes a file per pass and a list of them and the last file ha
     CHECK(geometry == stats["geometry_passes"].get<int>());
     CHECK(passes.back()["targets"][0]["digest"] == stats["digest"]["color"]);
     CHECK(std::filesystem::is_regular_file(folder / "out/contact.png"));
-    const CommandResult digest = shell(folder, "strata digest --json out/" + passes.back()["file"].get<std::string>());
+    const CommandResult digest =
+        shell(folder, "strata info --digests --json out/" + passes.back()["file"].get<std::string>());
     CHECK(nlohmann::json::parse(digest.out)[0]["digest"] == stats["digest"]["color"]);
     CHECK(lines_of(ended.out).size() == passes.size() + 1);
 }
@@ -79,7 +80,8 @@ TEST_CASE(
                 .status == 0);
     const auto parts_of = [&](const std::string& file) {
         std::vector<std::string> parts;
-        for (const nlohmann::json& target : nlohmann::json::parse(shell(folder, "strata digest --json " + file).out))
+        for (const nlohmann::json& target :
+             nlohmann::json::parse(shell(folder, "strata info --digests --json " + file).out))
             if (target["target"] == "color") parts.push_back(target["part"]);
         return parts;
     };

@@ -19,12 +19,12 @@ CommandResult render(const Folder& folder, std::vector<std::string> more, const 
 }
 
 std::string digest_line(const Folder& folder, const std::string& file) {
-    return run_strata(folder, {"digest", file}).out;
+    return run_strata(folder, {"info", "--digests", file}).out;
 }
 
 }  // namespace
 
-TEST_CASE("strata digest of an image prints the digest that its statistics contain") {
+TEST_CASE("strata info --digests of an image prints the digest that its statistics contain") {
     const auto format = GENERATE(as<std::string>{}, "rgba8", "rgba16f", "rgba32f");
     const auto ending = GENERATE(as<std::string>{}, ".exr", ".png");
     if (ending == ".png" && format != "rgba8") return;  // PNG files hold 8-bit codes
@@ -38,27 +38,27 @@ TEST_CASE("strata digest of an image prints the digest that its statistics conta
         CHECK(digest_line(folder, "out.exr").find(row["digest"]["depth"].get<std::string>()) != std::string::npos);
 }
 
-TEST_CASE("strata digest prints files that it can read and reports those it cannot and exits with status 1") {
+TEST_CASE("strata info --digests prints files that it can read and reports those it cannot and exits with status 1") {
     const Folder folder;
     CHECK(render(folder, {"-o", "a.exr"}).status == 0);
     CHECK(render(folder, {"-o", "b.png"}).status == 0);
     const std::string both = digest_line(folder, "a.exr") + digest_line(folder, "b.png");
-    const CommandResult ended = run_strata(folder, {"digest", "a.exr", "none.exr", "b.png"});
+    const CommandResult ended = run_strata(folder, {"info", "--digests", "a.exr", "none.exr", "b.png"});
     CHECK(ended.status == 2);
     CHECK(ended.err == "strata: none.exr: no such file\n");
     REQUIRE(lines_of(ended.out).size() == 4);
     for (const std::string& line : lines_of(ended.out)) CHECK(both.find(line.substr(0, 32)) != std::string::npos);
-    const CommandResult json = run_strata(folder, {"digest", "--json", "none.exr", "b.png"});
+    const CommandResult json = run_strata(folder, {"info", "--digests", "--json", "none.exr", "b.png"});
     CHECK(json.status == 2);
     CHECK(ordered_json::parse(json.out).size() == 1);
 }
 
-TEST_CASE("strata digest of a deep EXR depends on each of its fragments") {
+TEST_CASE("strata info --digests of a deep EXR depends on each of its fragments") {
     const Folder folder;
     const auto deep = [&](const std::string& file, const std::string& alpha) {
         CHECK(run_strata(folder, {"layers", small[0], small[1], small[2], "--alpha", alpha, "--deep", file}).status ==
               0);
-        const CommandResult ended = run_strata(folder, {"digest", "--json", file});
+        const CommandResult ended = run_strata(folder, {"info", "--digests", "--json", file});
         INFO(ended.err);
         REQUIRE(ended.status == 0);
         return ordered_json::parse(ended.out)[0];
@@ -187,7 +187,7 @@ TEST_CASE("a locale with decimal commas changes no byte") {
     CHECK(render(folder, comma, german).status == 0);
     CHECK((content_of(folder / "plain.exr") == content_of(folder / "comma.exr")));
     const auto profile = [&](const Setting& setting) {
-        return run_strata(folder, {"profiles", "--json", "geforce3"}, setting).out;
+        return run_strata(folder, {"list", "profiles", "--json", "geforce3"}, setting).out;
     };
     CHECK(profile({}) == profile(german));
 }

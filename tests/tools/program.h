@@ -13,9 +13,9 @@ namespace strata::test {
 // Every command, in the order of the help.
 [[nodiscard]] inline std::vector<std::string> commands() {
     return {
-        "render", "report",   "explain", "passes",         "layers",     "scene",         "info",       "compare",
-        "golden", "diagnose", "reduce",  "cost",           "invariance", "multisampling", "hard-cases", "reproduce",
-        "bench",  "probe",    "infer",   "hardware-check", "list",       "help",          "man",        "completions",
+        "render", "report",   "explain", "passes",         "layers",     "scene",         "info",        "compare",
+        "golden", "diagnose", "reduce",  "cost",           "invariance", "multisampling", "hard-cases",  "reproduce",
+        "bench",  "probe",    "infer",   "hardware-check", "list",       "help",          "completions",
     };
 }
 

@@ -93,7 +93,7 @@ TEST_CASE("a picture's command writes nothing and only its options that choose w
 TEST_CASE("a picture's command names files in its own folder or in that of --files-in") {
     const Folder folder;
     REQUIRE(shell(folder,
-                  "mkdir own sub && strata profiles --json geforce8 > chip.json && "
+                  "mkdir own sub && strata list profiles --json geforce8 > chip.json && "
                   "cat > panes.json <<'END'\n"
                   "{\"positions\": [[-1, -1, 0], [1, -1, 0], [0, 1, 0]]}\n"
                   "END\n"
@@ -158,12 +158,11 @@ TEST_CASE("a picture is redrawn whatever the name of its scene and from a pack w
     CHECK(content_of(folder / "a.png") == content_of(folder / "c.png"));
     CHECK_FALSE(std::filesystem::exists(folder / "pwned"));
 
-    REQUIRE(
-        shell(
-            folder,
-            "strata golden planes:count=2 --colour linear --background 0.2,0.3,0.5 --profile geforce8_dx101 --size 8x8 "
-            "-o pack && "
-            "strata render pack -o d.png && strata render --from d.png -o e.png")
-            .status == 0);
+    REQUIRE(shell(folder,
+                  "strata golden planes:count=2 --color-space linear --background 0.2,0.3,0.5 --profile geforce8_dx101 "
+                  "--size 8x8 "
+                  "-o pack && "
+                  "strata render pack -o d.png && strata render --from d.png -o e.png")
+                .status == 0);
     CHECK(content_of(folder / "d.png") == content_of(folder / "e.png"));
 }

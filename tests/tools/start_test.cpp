@@ -8,9 +8,9 @@ using namespace strata::test;
 
 TEST_CASE("a run that reads no PNG or JPEG takes less than 30 MB") {
     const auto words =
-        GENERATE(values<std::vector<std::string>>({{"algorithms"},
-                                                   {"scenes"},
-                                                   {"profiles", "--json", "ideal"},
+        GENERATE(values<std::vector<std::string>>({{"list", "algorithms"},
+                                                   {"list", "scenes"},
+                                                   {"list", "profiles", "--json", "ideal"},
                                                    {"render", "teapot", "--size", "64x64"},
                                                    {"render", "teapot", "--size", "64x64", "-o", "a.exr"},
                                                    {"render", "teapot", "--size", "64x64", "-o", "a.png"}}));

@@ -169,11 +169,11 @@ TEST_CASE("a list prints one JSON document with --json") {
     CHECK(ordered_json::accept(ended.out));
 }
 
-TEST_CASE("the JSON that strata profiles prints is a valid profile for --profile and gives the same bits") {
+TEST_CASE("the JSON that strata list profiles prints is a valid profile for --profile and gives the same bits") {
     const auto name = GENERATE(as<std::string>{}, "geforce3", "geforce8", "geforce8_dx101", "ideal", "llvmpipe",
                                "softpipe", "swiftshader", "direct3d11");
     const Folder folder;
-    CHECK(shell(folder, "strata profiles --json " + name + " > own.json").status == 0);
+    CHECK(shell(folder, "strata list profiles --json " + name + " > own.json").status == 0);
     const std::vector<std::string> words{"render",   "volume-beam:slices=4", "--size", "24x16", "--algorithm", "all",
                                          "--profile"};
     auto builtin = words, own = words;

@@ -1,6 +1,6 @@
 # `cpack --config build/release/CPackConfig.cmake` makes strata_VERSION_ARCHITECTURE.deb from the files that `cmake --install` installs: both
 # programs, the
-# libraries with their headers and CMake package, manual pages and completions. The programs' own libraries are found by
+# libraries with their headers and CMake package, and completions. The programs' own libraries are found by
 # dpkg-shlibdeps (package dpkg-dev); the packages that other programs need for compiling are only suggested.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME strata)

@@ -28,7 +28,6 @@ struct Command {
 [[nodiscard]] Command add_list(CLI::App& root);
 [[nodiscard]] Command add_info(CLI::App& root);
 [[nodiscard]] Command add_help(CLI::App& root);
-[[nodiscard]] Command add_man(CLI::App& root);
 [[nodiscard]] Command add_completions(CLI::App& root);
 
 // The end of a --help text: examples that run as printed, one per line, then the exit statuses.

@@ -9,7 +9,6 @@
 #include <filesystem>
 
 #include "scenes/files/system_error.h"
-#include "tools/strata/options/old_words.h"
 
 namespace strata::tools {
 
@@ -46,6 +45,13 @@ std::filesystem::path lab_program() {
 
 bool is_lab_there() { return ::access(lab_program().c_str(), X_OK) == 0; }
 
+// The index of the command, after any message options; words.size() if there is no command.
+std::size_t command_at(const std::vector<std::string>& words) {
+    std::size_t at = 0;
+    while (at < words.size() && words[at].starts_with('-')) at += words[at] == "--color" ? 2 : 1;
+    return std::min(at, words.size());
+}
+
 }  // namespace
 
 CLI::App* add_lab_command(CLI::App& root, std::string_view name) {
@@ -56,10 +62,8 @@ bool is_for_lab(const std::vector<std::string>& words) {
     const std::size_t at = command_at(words);
     if (at >= words.size()) return false;
     if (experiment(words[at]) != nullptr) return true;
-    const bool names_one = at + 1 < words.size() && experiment(words[at + 1]) != nullptr;
-    if (words[at] == "help") return names_one;
-    if (words[at] == "man" && at + 1 < words.size() && !words[at + 1].starts_with('-')) return names_one;
-    return (words[at] == "man" || words[at] == "completions") && at + 1 < words.size() && is_lab_there();
+    if (words[at] == "help") return at + 1 < words.size() && experiment(words[at + 1]) != nullptr;
+    return words[at] == "completions" && is_lab_there();
 }
 
 void run_lab(const std::vector<std::string>& words) {

@@ -27,7 +27,6 @@
 #include "tools/strata/manual/manual.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/names.h"
-#include "tools/strata/options/old_words.h"
 #include "tools/strata/recorded_command.h"
 #include "tools/strata/table.h"
 
@@ -154,7 +153,6 @@ constexpr std::array listed{
     Listed{"Devices", "hardware-check"},
     Listed{"Lists and help", "list", add_list},
     Listed{"Lists and help", "help", add_help},
-    Listed{"Lists and help", "man", add_man},
     Listed{"Lists and help", "completions", add_completions},
 };
 
@@ -199,11 +197,11 @@ HelpDetail take_amount_of_help(std::vector<std::string>& words) {
     return HelpDetail::usual;
 }
 
-// CLI11 expects the words in reverse order. A command's name after help or man is an argument: "--" prevents it from
+// CLI11 expects the words in reverse order. A command's name after help is an argument: "--" prevents it from
 // being parsed as a command.
 void parse(CLI::App& root, std::vector<std::string> words) {
-    const bool is_about = words.front() == "help" || words.front() == "man";
-    if (is_about && words.size() > 1 && !words[1].starts_with('-')) words.insert(words.begin() + 1, "--");
+    if (words.front() == "help" && words.size() > 1 && !words[1].starts_with('-'))
+        words.insert(words.begin() + 1, "--");
     root.parse(std::vector<std::string>(words.rbegin(), words.rend()));
 }
 
@@ -215,8 +213,7 @@ void refuse_values_of_flags(const std::vector<Command>& commands) {
 }
 
 // Checks the first word, because CLI11 would report a misspelt command as an extra argument.
-int parse_and_run(CLI::App& root, const std::vector<Command>& commands, std::vector<std::string> words,
-                  const std::vector<std::string>& old_words) {
+int parse_and_run(CLI::App& root, const std::vector<Command>& commands, std::vector<std::string> words) {
     const auto names = names_of(root);
     if (words.empty()) {
         print(short_help(commands));
@@ -234,7 +231,6 @@ int parse_and_run(CLI::App& root, const std::vector<Command>& commands, std::vec
     try {
         expand_from(words);
         parse(root, words);
-        for (const std::string& message : old_words) say_warning(message);
         for (const Command& command : commands) {
             if (command.app->parsed()) return command.run();
         }
@@ -249,10 +245,8 @@ int parse_and_run(CLI::App& root, const std::vector<Command>& commands, std::vec
     return 0;
 }
 
-int run(const std::vector<std::string>& given, const std::vector<NamedCommand>& experiments) {
-    std::vector<std::string> words = given;
-    const std::vector<std::string> old_words = replace_old_words(words);
-    if (experiments.empty() && is_for_lab(words)) run_lab(given);
+int run(const std::vector<std::string>& words, const std::vector<NamedCommand>& experiments) {
+    if (experiments.empty() && is_for_lab(words)) run_lab(words);
     CLI::App root{
         "Deterministic, bit-exact software rasterizer that runs depth-peeling algorithms as old GPUs ran them.",
         "strata"};
@@ -263,7 +257,7 @@ int run(const std::vector<std::string>& given, const std::vector<NamedCommand>& 
     add_message_options(root);
     for (const Command& command : commands) add_message_options(*command.app);
     refuse_values_of_flags(commands);
-    return parse_and_run(root, commands, words, old_words);
+    return parse_and_run(root, commands, words);
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include "scenes/inside_folder.h"
 #include "scenes/printable.h"
 #include "scenes/scene.h"
-#include "tools/strata/options/old_words.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/options/options.h"
 #include "tools/strata/options/shell_words.h"
@@ -50,12 +49,11 @@ std::string take(Words& words, std::string_view option) {
     return value;
 }
 
-// The words after `strata`, in today's spelling; empty if the line is not a command of strata.
+// The words after `strata`, empty if the line is not a command of strata.
 std::optional<Words> words_behind_strata(const std::string& line) {
     auto words = shell_words(line);
     if (!words || words->size() < 3 || words->front() != "strata") return std::nullopt;
     words->erase(words->begin());
-    static_cast<void>(replace_old_words(*words));
     return words;
 }
 

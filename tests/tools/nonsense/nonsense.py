@@ -28,12 +28,12 @@ OUT = ["-o", "out"]
 NEEDS = {
     "render": SMALL + ["--no-audit"], "layers": SMALL + ["--no-audit", "-o", "out.exr"], "passes": SMALL + OUT,
     "explain": SMALL + ["--pixel", "1,1"], "bench": SMALL + ["--repeat", "1", "--warm-up", "0", "--algorithm", "depth"],
-    "effects": SMALL + ["--repeat", "1"], "cost": SMALL + ["--dry-run"], "invariance": SMALL + ["--dry-run"],
+    "cost": SMALL + ["--dry-run"], "invariance": SMALL + ["--dry-run"],
     "reproduce": ["everitt2001"] + OUT, "hard-cases": ["--list"], "multisampling": SMALL, "hardware-check": ["."], "scene": SMALL[:1],
-    "digest": ["none.png"], "compare": ["a.png", "b.png"], "report": SMALL + OUT, "golden": SMALL + OUT,
-    "diagnose": SMALL + ["none.png"], "mistakes": ["--suite"], "reduce": ["none", "true"] + OUT, "profiles": ["ideal"],
-    "probe": OUT, "infer": ["none"], "list": ["scenes"], "algorithms": [], "scenes": [], "info": ["none.png"],
-    "help": [], "man": [], "completions": ["bash"],
+    "compare": ["a.png", "b.png"], "report": SMALL + OUT, "golden": SMALL + OUT,
+    "diagnose": SMALL + ["none.png"], "reduce": ["none", "true"] + OUT,
+    "probe": OUT, "infer": ["none"], "list": ["scenes"], "info": ["none.png"],
+    "help": [], "completions": [],
 }
 
 # (command or *, option, value): why the value is valid. Options that accept a file or folder of any name are excluded, except the empty name.
@@ -46,7 +46,6 @@ ACCEPTED = {
     ("*", "--overestimation", "-0"): "zero",
     ("*", "--moment-bias", "-0"): "zero",
     ("bench", "--warm-up", "-0"): "zero",
-    ("bench", "--json", "-"): "standard output, in the old spelling",
 }
 # Messages may use these names instead.
 SHORT = {"--output": ["-o"]}

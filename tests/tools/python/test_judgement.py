@@ -39,10 +39,10 @@ def test_samples_are_those_of_the_command():
 
 
 def sorted_over(region):
-    """Every fragment over those behind it, in binary64."""
+    """Every fragment over those behind it, in binary64; of equal depths the first submitted is the nearest, as a_buffer has it."""
     colors = region.behind.astype(np.float64).reshape(-1, 4)
     pixel, color = region.fragments["pixel"], region.fragments["color"].astype(np.float64)
-    for i in np.argsort(-region.fragments["code"].astype(np.int64), kind="stable"):
+    for i in np.lexsort((-np.arange(len(pixel)), -region.fragments["code"].astype(np.int64))):
         alpha = color[i, 3]
         colors[pixel[i], :3] = alpha * color[i, :3] + (1 - alpha) * colors[pixel[i], :3]
     return colors.reshape(region.height, region.width, 4)

@@ -149,8 +149,8 @@ def test_arrays_of_any_strides_are_read_as_they_look():
         assert np.array_equal(strata.picture(view).arrays["color"], view)
 
 
-@pytest.mark.parametrize("array", [np.zeros((2, 2, 4)), np.zeros((2, 2, 5), np.uint8), np.zeros(4, np.uint8), np.zeros((0, 4), np.uint8),
-                                   np.zeros((2, 2, 4), ">f4"), np.zeros((2, 2, 4), np.int32), np.zeros((2, 2), bool)])
+@pytest.mark.parametrize("array", [np.zeros((2, 2, 5), np.uint8), np.zeros(4, np.uint8), np.zeros((0, 4), np.uint8),
+                                   np.zeros((2, 2, 4), np.int32), np.zeros((2, 2), bool)])
 def test_arrays_that_are_no_pictures_are_refused(array):
     with pytest.raises(strata.InputError, match="picture: (dtype|shape): expected"):
         strata.picture(array)

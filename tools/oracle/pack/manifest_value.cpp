@@ -55,7 +55,7 @@ int ManifestValue::whole(const std::string& key, int fallback, int lowest, int h
 
 std::string ManifestValue::algorithm(const std::string& key) const {
     const std::string found = text(key);
-    if (peeling::find_algorithm(found) == nullptr) fail(key, "an algorithm (strata algorithms lists them)");
+    if (peeling::find_algorithm(found) == nullptr) fail(key, "an algorithm (strata list algorithms shows them)");
     return found;
 }
 

@@ -47,96 +47,6 @@ bool takes_scene(CLI::App& command) {
     });
 }
 
-// One case per command: its options, and the values of each option that has a list of them.
-std::string for_bash(CLI::App& root) {
-    std::string text =
-        "# bash completion of strata, made by: strata completions bash\n_strata() {\n"
-        "    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words=\n"
-        "    if [ \"$COMP_CWORD\" = 1 ]; then\n"
-        "        COMPREPLY=($(compgen -W " +
-        in_quotes(joined(command_names(root))) +
-        " -- \"$word\"))\n"
-        "        return\n    fi\n    case ${COMP_WORDS[1]} in\n";
-    for (CLI::App* command : commands_of(root)) {
-        std::vector<std::string> names;
-        std::string values;
-        for (const CLI::Option* option : typed_options(*command)) {
-            names.push_back(typed_name(*option));
-            const auto words = values_of(*option);
-            if (!words.empty())
-                values += "                " + names.back() + ") words=" + in_quotes(joined(words)) + " ;;\n";
-        }
-        text += "        " + command->get_name() + ")\n            case $before in\n" + values +
-                "                *) if [[ $word == -* ]]; then words=" + in_quotes(joined(names)) + "; " +
-                (takes_scene(*command) ? "else words=" + in_quotes(joined(scene_names())) + "; " : "") +
-                "fi ;;\n            esac ;;\n";
-    }
-    return text +
-           "    esac\n    COMPREPLY=($(compgen -W \"$words\" -- \"$word\") $([[ $word == -* ]] || compgen -f -- "
-           "\"$word\"))\n}\n"
-           "complete -o filenames -F _strata strata\n";
-}
-
-// Escapes brackets and colons, which separate the parts of a zsh argument specification.
-std::string for_arguments(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        if (c == '[' || c == ']' || c == ':' || c == '\\') result += '\\';
-        result += c;
-    }
-    return result;
-}
-
-std::string for_zsh(CLI::App& root) {
-    std::string text =
-        "#compdef strata\n# zsh completion of strata, made by: strata completions zsh\n_strata() {\n"
-        "  local -a commands=(\n";
-    for (const CLI::App* command : commands_of(root))
-        text += "    " + in_quotes(command->get_name() + ":" + command->get_description()) + "\n";
-    text +=
-        "  )\n  if (( CURRENT == 2 )); then\n    _describe command commands\n    return\n  fi\n"
-        "  local verb=$words[2]\n  shift words\n  (( CURRENT-- ))\n  case $verb in\n";
-    for (CLI::App* command : commands_of(root)) {
-        text += "    " + command->get_name() + ") _arguments";
-        for (const CLI::Option* option : typed_options(*command)) {
-            std::string what = typed_name(*option) + "[" + for_arguments(option->get_description()) + "]";
-            if (option->get_items_expected_max() > 0) {
-                const auto words = values_of(*option);
-                what += ":" + for_arguments(option->get_type_name()) + ":" +
-                        (words.empty() ? "_files" : "(" + joined(words) + ")");
-            }
-            text += " \\\n      " + in_quotes(what);
-        }
-        text += " \\\n      " +
-                in_quotes(takes_scene(*command) ? "*:scene:_alternative 'scenes:built-in scene:(" +
-                                                      joined(scene_names()) + ")' 'files:file:_files'"
-                                                : "*:file:_files") +
-                " ;;\n";
-    }
-    return text + "  esac\n}\n_strata \"$@\"\n";
-}
-
-std::string for_fish(CLI::App& root) {
-    std::string text = "# fish completion of strata, made by: strata completions fish\n";
-    for (CLI::App* command : commands_of(root)) {
-        const std::string name = command->get_name();
-        text += "complete -c strata -n __fish_use_subcommand -f -a " + name + " -d " +
-                in_quotes(command->get_description()) + "\n";
-        const std::string line = "complete -c strata -n '__fish_seen_subcommand_from " + name + "'";
-        if (takes_scene(*command)) text += line + " -a " + in_quotes(joined(scene_names())) + "\n";
-        for (const CLI::Option* option : typed_options(*command)) {
-            const auto words = values_of(*option);
-            text += line;
-            if (!option->get_lnames().empty()) text += " -l " + option->get_lnames().front();
-            if (!option->get_snames().empty()) text += " -s " + option->get_snames().front();
-            if (!words.empty()) text += " -x -a " + in_quotes(joined(words));
-            if (words.empty() && option->get_items_expected_max() > 0) text += " -r";
-            text += " -d " + in_quotes(option->get_description()) + "\n";
-        }
-    }
-    return text;
-}
-
 }  // namespace
 
 // The values of an option: the words of a list type, as add_choice writes it, or the names of a registry.
@@ -163,13 +73,34 @@ std::vector<std::string> values_of(const CLI::Option& option) {
     return words;
 }
 
-std::string completions(CLI::App& root, Shell shell) {
-    switch (shell) {
-        case Shell::bash: return for_bash(root);
-        case Shell::zsh: return for_zsh(root);
-        case Shell::fish: return for_fish(root);
+// One case per command: its options, and the values of each option that has a list of them.
+std::string completions(CLI::App& root) {
+    std::string text =
+        "# bash completion of strata, made by: strata completions\n_strata() {\n"
+        "    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words=\n"
+        "    if [ \"$COMP_CWORD\" = 1 ]; then\n"
+        "        COMPREPLY=($(compgen -W " +
+        in_quotes(joined(command_names(root))) +
+        " -- \"$word\"))\n"
+        "        return\n    fi\n    case ${COMP_WORDS[1]} in\n";
+    for (CLI::App* command : commands_of(root)) {
+        std::vector<std::string> names;
+        std::string values;
+        for (const CLI::Option* option : typed_options(*command)) {
+            names.push_back(typed_name(*option));
+            const auto words = values_of(*option);
+            if (!words.empty())
+                values += "                " + names.back() + ") words=" + in_quotes(joined(words)) + " ;;\n";
+        }
+        text += "        " + command->get_name() + ")\n            case $before in\n" + values +
+                "                *) if [[ $word == -* ]]; then words=" + in_quotes(joined(names)) + "; " +
+                (takes_scene(*command) ? "else words=" + in_quotes(joined(scene_names())) + "; " : "") +
+                "fi ;;\n            esac ;;\n";
     }
-    return "";  // unreachable: the enum is closed
+    return text +
+           "    esac\n    COMPREPLY=($(compgen -W \"$words\" -- \"$word\") $([[ $word == -* ]] || compgen -f -- "
+           "\"$word\"))\n}\n"
+           "complete -o filenames -F _strata strata\n";
 }
 
 }  // namespace strata::tools

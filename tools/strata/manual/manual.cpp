@@ -1,11 +1,9 @@
-// tools/strata/manual/manual.cpp - strata help, man and completions: the commands that describe commands.
+// tools/strata/manual/manual.cpp - strata help and completions: the commands that describe commands.
 #include "tools/strata/manual/manual.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 
-#include "scenes/files/atomic_file.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/table.h"
@@ -15,8 +13,7 @@ namespace strata::tools {
 namespace {
 
 struct About {
-    std::string command, amount, folder;
-    Shell shell = Shell::bash;
+    std::string command, amount;
 };
 
 // The command of that name; the root for an empty name.
@@ -28,16 +25,6 @@ CLI::App& command_named(CLI::App& root, const std::string& name) {
         names.push_back(command->get_name());
     }
     throw CLI::ValidationError("COMMAND", "expected " + one_of(names) + ", found " + found_but_near(name, names));
-}
-
-int write_pages(CLI::App& root, const std::string& folder) {
-    std::filesystem::create_directories(folder);
-    const auto write = [&](const std::string& name, CLI::App& command) {
-        scenes::write_file((std::filesystem::path(folder) / (name + ".1")).string(), man_page(root, command));
-    };
-    write("strata", root);
-    for (CLI::App* command : commands_of(root)) write("strata-" + command->get_name(), *command);
-    return 0;
 }
 
 }  // namespace
@@ -57,27 +44,14 @@ Command add_help(CLI::App& root) {
             }};
 }
 
-Command add_man(CLI::App& root) {
-    auto* app = root.add_subcommand("man", "write the manual: a page in the language of man, or all of them");
-    const auto about = std::make_shared<About>();
-    app->add_option("COMMAND", about->command, "a command; without one, the program's own page")->type_name("");
-    add_path(*app, about->folder, {"-o,--output", "FOLDER", "gets strata.1 and a page a command", "a folder's name"});
-    app->footer(footer("  strata man render\n  strata man -o man1\n"));
-    return {app, [&root, about] {
-                if (!about->folder.empty()) return write_pages(root, about->folder);
-                print(man_page(root, command_named(root, about->command)));
-                return 0;
-            }};
-}
-
 Command add_completions(CLI::App& root) {
-    auto* app = root.add_subcommand("completions", "write what a shell needs to complete commands and options");
-    const auto about = std::make_shared<About>();
-    const std::vector<Choice<Shell>> shells{{"bash", Shell::bash}, {"zsh", Shell::zsh}, {"fish", Shell::fish}};
-    add_choice(*app, about->shell, "SHELL", shells, "bash, zsh or fish")->required();
-    app->footer(footer("  strata completions bash > strata.bash\n  strata completions fish > strata.fish\n"));
-    return {app, [&root, about] {
-                print(completions(root, about->shell));
+    auto* app =
+        root.add_subcommand("completions", "write a bash script that completes commands, options and their values");
+    app->footer(
+        footer("  strata completions > strata.bash\n  source strata.bash    # zsh: after autoload -U bashcompinit && "
+               "bashcompinit\n"));
+    return {app, [&root] {
+                print(completions(root));
                 return 0;
             }};
 }

@@ -1,5 +1,5 @@
 // tools/strata/manual/manual.h - texts about commands and options, generated from their declarations: help in groups,
-// manual pages, and shell completions.
+// and bash completions.
 // Tests    tests/tools/manual_test.cpp
 #pragma once
 #include <CLI/CLI.hpp>
@@ -18,11 +18,8 @@ enum class HelpDetail : std::uint8_t { usual, all };
 // The commands of the program, in the order in which they were added.
 [[nodiscard]] std::vector<CLI::App*> commands_of(CLI::App& root);
 
-// A manual page of section 1 in troff: of a command, or of the whole program if `command` is the root.
-[[nodiscard]] std::string man_page(CLI::App& root, CLI::App& command);
-
-enum class Shell : std::uint8_t { bash, zsh, fish };
-[[nodiscard]] std::string completions(CLI::App& root, Shell shell);
+// A bash script; zsh reads it by bashcompinit.
+[[nodiscard]] std::string completions(CLI::App& root);
 
 // The values that an option accepts, if they form a list: choices, algorithms, devices.
 [[nodiscard]] std::vector<std::string> values_of(const CLI::Option& option);
