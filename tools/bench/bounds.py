@@ -108,7 +108,7 @@ def layers_command(strata, scene, size, profile, algorithm, extra, folder):
 
 def layered(options, profile, folder):
     """The algorithms whose layers both commands write with a profile."""
-    listed = subprocess.run([options.strata, "algorithms", "--json"], stdout=subprocess.PIPE, check=True)
+    listed = subprocess.run([options.strata, "list", "algorithms", "--json"], stdout=subprocess.PIPE, check=True)
     names = [each["name"] for each in json.loads(listed.stdout)]
     writes = lambda strata, name: subprocess.run(layers_command(strata, "teapot", "8x8", profile, name, (), folder),
                                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0

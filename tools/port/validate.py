@@ -131,7 +131,7 @@ def where_section(found):
 
 def fields_that_differ(build, ours, theirs):
     """Rules in which two profiles differ: {field: the other's value}. Features and limits affect no pixel."""
-    one, other = (packs.json.loads(packs.run([build / "strata", "profiles", name, "--json"])) for name in (ours, theirs))
+    one, other = (packs.json.loads(packs.run([build / "strata", "list", "profiles", name, "--json"])) for name in (ours, theirs))
     rules = {f"raster.{k}": v for k, v in other["raster"].items() if one["raster"].get(k) != v}
     rules.update({k: v for k, v in other.items() if one.get(k) != v and isinstance(v, str) and k not in ("name", "description")})
     return rules

@@ -304,7 +304,7 @@ Command add_compare(CLI::App& root) {
         "teapot.png\n"
         "With a scene as the reference the picture is right if some port that composites the right fragments in the "
         "right order can make it, "
-        "whatever its formats, order of blending and rounding. With --algorithm and one that is not exact (strata "
+        "whatever its formats, order of blending and rounding. With --algorithm and one that is not exact (strata list "
         "algorithms) it is compared with that algorithm's own picture.\n"
         "Exit status: 0 right, equal or within --tolerance, 1 wrong or different, 2 bad input or usage, 3 the system "
         "failed, 130 "

@@ -55,7 +55,7 @@ def cases_of(kind, document, path, words):
 
 
 def profile_cases(program):
-    profile = json.loads(output_of(program, ["profiles", "ideal", "--json"]))
+    profile = json.loads(output_of(program, ["list", "profiles", "ideal", "--json"]))
     profile["base"] = "ideal"
     words = ["render", "planes:count=1", "--size", "8x8", "--no-audit", "--profile", "profile.json"]
     paths = [(key,) for key in profile] + [("raster", key) for key in profile["raster"]]

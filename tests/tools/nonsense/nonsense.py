@@ -105,7 +105,7 @@ def option_cases(program, commands):
 
 
 def scene_cases(program):
-    for line in output_of(program, ["scenes"]).splitlines()[1:]:
+    for line in output_of(program, ["list", "scenes"]).splitlines()[1:]:
         scene, _, parameters = line.split()[0].partition(":")
         for parameter in filter(None, parameters.split(",")):
             key = parameter.partition("=")[0]
