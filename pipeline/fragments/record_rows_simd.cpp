@@ -88,7 +88,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "rasterizer/base/simd_dispatch.h"
-#include "rasterizer/set_up/window.h"
+#include "rasterizer/values/depth/depth_scale.h"
 
 namespace strata::pipeline {
 STRATA_EXPORT(record_all);
@@ -96,9 +96,8 @@ STRATA_EXPORT(record_all);
 std::uint64_t record_rows(TileFragments& to, const rasterizer::Geometry& geometry,
                           std::span<const std::uint32_t> triangles, const rasterizer::DepthRequest& depth,
                           const rasterizer::Rect& region) {
-    const rasterizer::FragmentValues values{geometry, depth, {.shader_z = false, .code = true, .color = false}};
-    return kernel_of(HWY_DISPATCH_TABLE(record_all))(to, geometry, triangles, region, values.to_code(),
-                                                     z_units(geometry.state, geometry.rules));
+    const rasterizer::DepthScale scale = depth_scale(geometry, depth);
+    return kernel_of(HWY_DISPATCH_TABLE(record_all))(to, geometry, triangles, region, scale.to_code, scale.z_units);
 }
 
 }  // namespace strata::pipeline

@@ -1,7 +1,7 @@
 // pipeline/stages/color_planes-inl.h - the colours of a triangle, eight pixels at a time, for passes without batches.
 // For *_simd.cpp only: Highway compiles it once per instruction set, in each file that includes foreach_target.h.
 //
-// Rule     The colours of FragmentValues::fill with ColorInterpolation::exact_plane.
+// Rule     The colours of PlaneAttributes with ColorInterpolation::exact_plane.
 // Tests    tests/peeling/execution_test.cpp compares with literal execution.
 #include "hwy/highway.h"
 #include "rasterizer/walk/row_walk-inl.h"

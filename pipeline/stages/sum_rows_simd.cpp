@@ -184,7 +184,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "rasterizer/base/simd_dispatch.h"
-#include "rasterizer/set_up/window.h"
+#include "rasterizer/values/depth/depth_scale.h"
 
 namespace strata::pipeline {
 STRATA_EXPORT(add_rows);
@@ -192,9 +192,8 @@ STRATA_EXPORT(add_rows);
 rasterizer::DepthDrawn add_sum_rows(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
                                     const rasterizer::DepthRequest& depth, const rasterizer::Rect& region,
                                     const SumPlanes& planes) noexcept {
-    const rasterizer::FragmentValues values{geometry, depth, {.shader_z = false, .code = true, .color = false}};
-    return kernel_of(HWY_DISPATCH_TABLE(add_rows))(geometry, triangles, region, values.to_code(),
-                                                   z_units(geometry.state, geometry.rules), planes);
+    const rasterizer::DepthScale scale = depth_scale(geometry, depth);
+    return kernel_of(HWY_DISPATCH_TABLE(add_rows))(geometry, triangles, region, scale.to_code, scale.z_units, planes);
 }
 
 }  // namespace strata::pipeline

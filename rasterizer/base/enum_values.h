@@ -65,6 +65,13 @@ template <class Enum>
 inline constexpr auto enum_names =
     enum_values_detail::names<Enum>(std::make_index_sequence<enum_values_detail::count<Enum>()>{});
 
+// The identifier of a value; empty if the enum has no such value.
+template <class Enum>
+[[nodiscard]] constexpr std::string_view enum_name(Enum value) noexcept {
+    const auto number = static_cast<std::size_t>(value);
+    return number < enum_names<Enum>.size() ? enum_names<Enum>[number] : std::string_view{};
+}
+
 // True if a number read from outside is a value of its enum.
 template <class Enum>
 [[nodiscard]] constexpr bool is_listed(Enum value) noexcept {

@@ -1,4 +1,5 @@
-// rasterizer/base/fused.h - a multiply-add with a single rounding, exact also on machines without a fused instruction.
+// rasterizer/base/fused.h - a multiply-add with a single rounding, exact also on processors without a fused
+// instruction.
 //
 // Rule     The product of two binary32 numbers is exact in binary64. The sum is rounded to odd in binary64, so the
 //          conversion to binary32 is the only rounding that affects the result.

@@ -6,7 +6,7 @@
 
 namespace strata {
 
-// Calls body(i) for every i in [0, count) on up to `threads` threads (0: as many as the machine has processors), each
+// Calls body(i) for every i in [0, count) on up to `threads` threads (0: as many as the computer has processors), each
 // call in its own FloatEnvironment and with the caller's instruction set (simd.h). Different calls must write to
 // disjoint memory: no result may depend on which thread runs which index, or when. An exception from a body is rethrown
 // here.

@@ -46,13 +46,14 @@ thread_local constinit Simd chosen = Simd::best;
 
 std::vector<Simd> available_simd() {
 #if HWY_ARCH_X86
-    static const std::int64_t machine = supported_targets() & HWY_TARGETS;
+    static const std::int64_t processor = supported_targets() & HWY_TARGETS;
 #else
-    constexpr std::int64_t machine = 0;  // the names above are those of x86: other machines run the scalar reference
+    constexpr std::int64_t processor =
+        0;  // the names above are those of x86: other processors run the scalar reference
 #endif
     std::vector<Simd> all{Simd::scalar};
     for (const Simd simd : {Simd::avx2, Simd::avx512})
-        if ((machine & target_of(simd)) != 0) all.push_back(simd);
+        if ((processor & target_of(simd)) != 0) all.push_back(simd);
     return all;
 }
 

@@ -4,8 +4,8 @@
 // Rule     A kernel is in a *_simd.cpp, which Highway compiles once per instruction set. Its meaning is defined by a
 //          plain loop in a header, the scalar reference, which `scalar` selects. A kernel uses only operations that are
 //          exact or correctly rounded on every instruction set: no fused multiply-add, no approximate reciprocal, no
-//          horizontal float sum. NaN and -0 follow the scalar reference, not a machine's MIN and MAX instructions. The
-//          choice belongs to a call, not to the process: a public entry point opens a SimdScope, as it opens a
+//          horizontal float sum. NaN and -0 follow the scalar reference, not a processor's MIN and MAX instructions.
+//          The choice belongs to a call, not to the process: a public entry point opens a SimdScope, as it opens a
 //          FloatEnvironment, and parallel_for passes it to its workers. Highway's own choice for the host program is
 //          neither changed nor read.
 // Source   Highway's run-time dispatch; pipeline/reference/fragment-stages.md 9.3 (MIN and MAX).

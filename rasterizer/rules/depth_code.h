@@ -66,9 +66,9 @@ inline constexpr float max_d24f = 1e30f;
         case DepthFormat::d24: return 0xffffffu;
         case DepthFormat::d32f: return std::bit_cast<std::uint32_t>(1.0f);
         case DepthFormat::d16f: return 0xffffu;
-        case DepthFormat::d24f: return std::bit_cast<std::uint32_t>(max_d24f) >> 7;
+        case DepthFormat::d24f: break;
     }
-    return 0;  // unreachable: the enum is closed
+    return std::bit_cast<std::uint32_t>(max_d24f) >> 7;
 }
 
 // (2 - 2^-12) 2^8: the value of code 0xffff.
@@ -80,9 +80,9 @@ inline constexpr float max_d16f = 511.9375f;
         case DepthFormat::d24: return CodeKind::fixed;
         case DepthFormat::d32f: return CodeKind::binary32;
         case DepthFormat::d16f: return CodeKind::d16f;
-        case DepthFormat::d24f: return CodeKind::d24f;
+        case DepthFormat::d24f: break;
     }
-    return CodeKind::fixed;  // unreachable: the enum is closed
+    return CodeKind::d24f;
 }
 
 // Depth 1.0 in the buffer's own units: 2^n - 1, 1, 511.9375, or 1e30.
@@ -93,9 +93,9 @@ inline constexpr float max_d16f = 511.9375f;
         case CodeKind::fixed_truncated_product: return max_code(format);
         case CodeKind::binary32: return 1.0;
         case CodeKind::d16f: return max_d16f;
-        case CodeKind::d24f: return max_d24f;
+        case CodeKind::d24f: break;
     }
-    return 1.0;  // unreachable: the enum is closed
+    return max_d24f;
 }
 
 // For values in D16F's own units, [0, 511.9375]: the leading bits of the binary64 minus those of 2^-7. Negative values
@@ -167,9 +167,9 @@ template <class Value>
             return depth_code<CodeKind::fixed_truncated_product>(OneLane<Value>{}, z, to);
         case CodeKind::binary32: return depth_code<CodeKind::binary32>(OneLane<Value>{}, z, to);
         case CodeKind::d16f: return depth_code<CodeKind::d16f>(OneLane<Value>{}, z, to);
-        case CodeKind::d24f: return depth_code<CodeKind::d24f>(OneLane<Value>{}, z, to);
+        case CodeKind::d24f: break;
     }
-    return 0;  // unreachable: the enum is closed
+    return depth_code<CodeKind::d24f>(OneLane<Value>{}, z, to);
 }
 
 // The code of a value under DepthLimits::wrap, where depth 1 is 1: D32F keeps the value. In fixed point it is scaled
@@ -224,9 +224,9 @@ template <class Limit>
         case CodeKind::fixed_truncated_product: return code;
         case CodeKind::binary32: return double{std::bit_cast<float>(code)};
         case CodeKind::d16f: return double{d16f_value(code)};
-        case CodeKind::d24f: return d24f_value(code);
+        case CodeKind::d24f: break;
     }
-    return 0.0;  // unreachable: the enum is closed
+    return d24f_value(code);
 }
 
 // k / (2^n - 1) rounded once to binary64, for images and reports; comparisons use codes.

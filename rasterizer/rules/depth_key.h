@@ -5,7 +5,7 @@
 //          order: 0 and 1 are exchanged, other normal numbers z in [0,1] become the number with the bits 3fffffff -
 //          bits(z). Denormal depths count as 0. Outside the range, z > 1 becomes a negative key and z < 0 a key above
 //          1, in order.
-// Source   rasterizer/reference/depth.md 11: a machine that tests GREATER, clears to 0 and blends depths with MAX gives
+// Source   rasterizer/reference/depth.md 11: a device that tests GREATER, clears to 0 and blends depths with MAX gives
 //          the same results on depths as one with LESS, 1 and MIN gives on keys.
 // Numbers  bits(0.5) = 3f000000. No key is denormal, so blending into float targets, which may flush denormals, does
 //          not change keys.

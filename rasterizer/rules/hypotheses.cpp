@@ -9,19 +9,19 @@ struct List {
     std::vector<NamedHypothesis> all;
 
     explicit List(const RasterRules& rules) : all{{"as given", rules, {}}} {}
-    void vary(Subject subject, std::string name, auto change) {
+    void vary(HypothesisSubject subject, std::string name, auto change) {
         RasterRules rules = all.front().rules;
         change(rules);
         if (rules != all.front().rules) all.push_back({std::move(name), rules, subject});
     }
-    void vary(Subject subject, const std::string& name, int DepthHypothesis::*constant, int low, int high) {
+    void vary(HypothesisSubject subject, const std::string& name, int DepthHypothesis::*constant, int low, int high) {
         for (int n = low; n <= high; ++n)
             vary(subject, name + "=" + std::to_string(n), [&](RasterRules& r) { r.hypothesis.*constant = n; });
     }
 };
 
 void vary_quotients(List& list) {
-    constexpr Subject subject = Subject::texture_depth;
+    constexpr HypothesisSubject subject = HypothesisSubject::texture_depth;
     list.vary(subject, "interpolant_bits", &DepthHypothesis::interpolant_bits, 16, 24);
     list.vary(subject, "interpolant_bits=double", [](RasterRules& r) { r.hypothesis.interpolant_bits = full_double; });
     list.vary(subject, "divide=exact", [](RasterRules& r) { r.hypothesis.divide = DivideRule::exact; });
@@ -32,7 +32,7 @@ void vary_quotients(List& list) {
 }
 
 void vary_window_depth(List& list) {
-    constexpr Subject subject = Subject::window_depth;
+    constexpr HypothesisSubject subject = HypothesisSubject::window_depth;
     list.vary(subject, "window_z=chip", [](RasterRules& r) { r.hypothesis.window_z = WindowZRule::chip; });
     list.vary(subject, "window_z=exact", [](RasterRules& r) { r.hypothesis.window_z = WindowZRule::exact; });
     list.vary(subject, "window_z=float32", [](RasterRules& r) { r.hypothesis.window_z = WindowZRule::float32; });
@@ -56,7 +56,7 @@ void vary_window_depth(List& list) {
 }
 
 void vary_anchor(List& list) {
-    constexpr Subject subject = Subject::window_depth;
+    constexpr HypothesisSubject subject = HypothesisSubject::window_depth;
     list.vary(subject, "plane_anchor=first_vertex",
               [](RasterRules& r) { r.hypothesis.plane_anchor = PlaneAnchor::first_vertex; });
     list.vary(subject, "plane_anchor=window_corner",
@@ -69,7 +69,7 @@ std::vector<NamedHypothesis> depth_hypotheses(const RasterRules& rules) {
     List list{rules};
     vary_quotients(list);
     vary_window_depth(list);
-    constexpr Subject compared = Subject::texture_depth;
+    constexpr HypothesisSubject compared = HypothesisSubject::texture_depth;
     list.vary(compared, "quantize_reference=true", [](RasterRules& r) { r.hypothesis.quantize_reference = true; });
     list.vary(compared, "quantize_reference=false", [](RasterRules& r) { r.hypothesis.quantize_reference = false; });
     vary_anchor(list);
@@ -79,21 +79,21 @@ std::vector<NamedHypothesis> depth_hypotheses(const RasterRules& rules) {
 std::vector<NamedHypothesis> interpolation_hypotheses(const RasterRules& rules) {
     List list{rules};
     for (const int n : {12, 13, 14, 15, 16, 24})
-        list.vary(Subject::color, "vertex_color_bits=" + std::to_string(n),
+        list.vary(HypothesisSubject::color, "vertex_color_bits=" + std::to_string(n),
                   [n](RasterRules& r) { r.interpolation.vertex_color_bits = n; });
-    list.vary(Subject::color, "perspective_color=edge_products",
+    list.vary(HypothesisSubject::color, "perspective_color=edge_products",
               [](RasterRules& r) { r.interpolation.perspective_color = PerspectiveColor::edge_products; });
-    list.vary(Subject::color, "perspective_color=weight_products",
+    list.vary(HypothesisSubject::color, "perspective_color=weight_products",
               [](RasterRules& r) { r.interpolation.perspective_color = PerspectiveColor::weight_products; });
-    list.vary(Subject::color, "perspective_color=cut_products",
+    list.vary(HypothesisSubject::color, "perspective_color=cut_products",
               [](RasterRules& r) { r.interpolation.perspective_color = PerspectiveColor::cut_products; });
-    list.vary(Subject::coordinates, "perspective_coordinates=exact_plane",
+    list.vary(HypothesisSubject::coordinates, "perspective_coordinates=exact_plane",
               [](RasterRules& r) { r.interpolation.perspective_coordinates = PerspectiveCoordinates::exact_plane; });
-    list.vary(Subject::coordinates, "perspective_coordinates=cut_products",
+    list.vary(HypothesisSubject::coordinates, "perspective_coordinates=cut_products",
               [](RasterRules& r) { r.interpolation.perspective_coordinates = PerspectiveCoordinates::cut_products; });
-    list.vary(Subject::coordinates, "texture_coordinates=exact_plane",
+    list.vary(HypothesisSubject::coordinates, "texture_coordinates=exact_plane",
               [](RasterRules& r) { r.interpolation.texture_coordinates = CoordinateRule::exact_plane; });
-    list.vary(Subject::coordinates, "texture_coordinates=cut_weights",
+    list.vary(HypothesisSubject::coordinates, "texture_coordinates=cut_weights",
               [](RasterRules& r) { r.interpolation.texture_coordinates = CoordinateRule::cut_weights; });
     return std::move(list.all);
 }

@@ -14,7 +14,7 @@
 namespace strata::rasterizer {
 
 // The kind of fragment value that a constant can affect.
-enum class Subject : std::uint8_t {
+enum class HypothesisSubject : std::uint8_t {
     window_depth,   // depths that are written
     texture_depth,  // depths computed from r and q: replaced, or compared with a texel
     color,
@@ -24,7 +24,7 @@ enum class Subject : std::uint8_t {
 struct NamedHypothesis {
     std::string name;  // "interpolant_bits=20"
     RasterRules rules;
-    Subject subject{};
+    HypothesisSubject subject{};
 };
 
 // The alternatives of depth_hypothesis.h and of depth_rounding.

@@ -26,18 +26,18 @@ using FloatMask = hn::Mask<F>;
 HWY_INLINE VF set_float(float v) { return hn::Set(F{}, v); }
 HWY_INLINE Mask for_integers(FloatMask mask) { return hn::RebindMask(I{}, mask); }
 
-struct Point {
+struct SpanPoint {
     VF x, y;
 };
-HWY_INLINE Point chosen(FloatMask is_first, const Point& a, const Point& b) {
+HWY_INLINE SpanPoint chosen(FloatMask is_first, const SpanPoint& a, const SpanPoint& b) {
     return {hn::IfThenElse(is_first, a.x, b.x), hn::IfThenElse(is_first, a.y, b.y)};
 }
 
 // by_height in vectors.
 struct Heights {
-    Point least, middle, greatest;
+    SpanPoint least, middle, greatest;
 
-    HWY_INLINE explicit Heights(const Point (&p)[3]) {
+    HWY_INLINE explicit Heights(const SpanPoint (&p)[3]) {
         const FloatMask rises = hn::Le(p[0].y, p[1].y);
         const FloatMask rises_on = hn::Le(p[1].y, p[2].y), last_is_least = hn::Le(p[2].y, p[0].y);
         const FloatMask first_is_middle = hn::Le(p[0].y, p[2].y), last_is_low = hn::Le(p[2].y, p[1].y);
@@ -52,11 +52,12 @@ struct Heights {
 };
 
 // FloatSpans::Side in vectors.
-struct Side {
+struct SpanSide {
     VF dx, dy, slope, x, y;
     VI rows;
 
-    HWY_INLINE Side(const Point& from, const Point& to) : dx{hn::Sub(to.x, from.x)}, dy{hn::Sub(to.y, from.y)} {
+    HWY_INLINE SpanSide(const SpanPoint& from, const SpanPoint& to)
+        : dx{hn::Sub(to.x, from.x)}, dy{hn::Sub(to.y, from.y)} {
         slope = hn::IfThenZeroElse(hn::Eq(dy, hn::Zero(F{})), hn::Div(dx, dy));
         const VF half = set_float(0.5f), first = hn::Sub(from.y, half), end = hn::Sub(to.y, half);
         y = hn::Ceil(first);
@@ -72,7 +73,7 @@ struct Side {
         return hn::ConvertTo(I{}, hn::Min(hn::Max(hn::Add(x, hn::Mul(k, slope)), low), high));
     }
     // Selects one of two sides per lane, with only the values that are still needed.
-    HWY_INLINE Side(FloatMask is_first, const Side& a, const Side& b)
+    HWY_INLINE SpanSide(FloatMask is_first, const SpanSide& a, const SpanSide& b)
         : dx{a.dx},
           dy{a.dy},
           slope{hn::IfThenElse(is_first, a.slope, b.slope)},
@@ -82,12 +83,13 @@ struct Side {
 };
 
 // Boxes of pixels [x0, x1) x [y0, y1).
-struct Boxes {
+struct SpanBoxes {
     VI x0, y0, x1, y1;
 };
 
 // FloatSpans::part: extends `covered` by the pixels of the rows within `box`, for the triangles in `seen`.
-HWY_INLINE void see_part(const Side& left, const Side& right, VI rows, const Boxes& box, Mask seen, Boxes& covered) {
+HWY_INLINE void see_part(const SpanSide& left, const SpanSide& right, VI rows, const SpanBoxes& box, Mask seen,
+                         SpanBoxes& covered) {
     const VF low = hn::ConvertTo(F{}, box.x0), high = hn::ConvertTo(F{}, box.x1);
     const VI y = hn::ConvertTo(I{}, left.y), end = hn::Min(rows, hn::Sub(box.y1, y));
     VI k = hn::Max(hn::Zero(I{}), hn::Sub(box.y0, y));
@@ -105,7 +107,7 @@ HWY_INLINE void see_part(const Side& left, const Side& right, VI rows, const Box
 }
 
 // float_box within the viewport.
-HWY_INLINE Boxes boxes_of(const Rect& viewport, const Point (&p)[3]) {
+HWY_INLINE SpanBoxes boxes_of(const Rect& viewport, const SpanPoint (&p)[3]) {
     const auto least = [](VF a, VF b, VF c) HWY_ATTR { return hn::ConvertTo(I{}, hn::Min(hn::Min(a, b), c)); };
     const auto most = [](VF a, VF b, VF c) HWY_ATTR { return hn::ConvertTo(I{}, hn::Max(hn::Max(a, b), c)); };
     return {hn::Max(hn::Sub(least(p[0].x, p[1].x, p[2].x), set(2)), set(viewport.x0)),
@@ -114,7 +116,7 @@ HWY_INLINE Boxes boxes_of(const Rect& viewport, const Point (&p)[3]) {
             hn::Min(hn::Add(most(p[0].y, p[1].y, p[2].y), set(3)), set(viewport.y1))};
 }
 
-HWY_INLINE VF float_area(const Point (&p)[3]) {
+HWY_INLINE VF float_area(const SpanPoint (&p)[3]) {
     const VF ex = hn::Sub(p[0].x, p[2].x), ey = hn::Sub(p[0].y, p[2].y);
     const VF fx = hn::Sub(p[1].x, p[2].x), fy = hn::Sub(p[1].y, p[2].y);
     return hn::Sub(hn::Mul(ex, fy), hn::Mul(ey, fx));
@@ -123,14 +125,14 @@ HWY_INLINE VF float_area(const Point (&p)[3]) {
 // Returns false if a side is so flat that its x might not be finite.
 HWY_INLINE bool find_shapes(const PlainTriangleRules& rules, const std::uint32_t* indices, const WindowCorner* corners,
                             std::size_t first, PlainShapes& shapes) {
-    Point p[3];
+    SpanPoint p[3];
     for (int i = 0; i < 3; ++i) {
         VI x, y;
         load_halves(corners, 1, indices + 3 * first + i, x, y);
         p[i] = {hn::BitCast(F{}, x), hn::BitCast(F{}, y)};
     }
     const Heights heights{p};
-    Side bottom{heights.least, heights.middle}, longest{heights.least, heights.greatest},
+    SpanSide bottom{heights.least, heights.middle}, longest{heights.least, heights.greatest},
         top{heights.middle, heights.greatest};
     const VF steepest = hn::Max(hn::Max(hn::Abs(bottom.slope), hn::Abs(longest.slope)), hn::Abs(top.slope));
     if (!hn::AllTrue(F{}, hn::Lt(steepest, set_float(0x1p64f)))) return false;
@@ -139,13 +141,13 @@ HWY_INLINE bool find_shapes(const PlainTriangleRules& rules, const std::uint32_t
     const Mask is_drawn = for_integers(hn::Lt(hn::Abs(hn::Div(set_float(1.0f), area)), infinity));
     const Mask is_positive = for_integers(hn::Gt(float_area(p), hn::Zero(F{})));
 
-    const Boxes box = boxes_of(rules.group.clip, p);
+    const SpanBoxes box = boxes_of(rules.group.clip, p);
     const VI zero = hn::Zero(I{});
     const VI width = hn::Max(hn::Sub(box.x1, box.x0), zero), height = hn::Max(hn::Sub(box.y1, box.y0), zero);
     const Mask is_large = hn::Gt(hn::Max(width, height), set(seen_size));
     const Mask has_box = hn::And(hn::Gt(width, zero), hn::Gt(height, zero));
     const Mask seen = hn::And(is_drawn, hn::AndNot(is_large, has_box));
-    Boxes covered{box.x1, box.y1, box.x0, box.y0};
+    SpanBoxes covered{box.x1, box.y1, box.x0, box.y0};
     const FloatMask is_negative = hn::Lt(area, hn::Zero(F{}));
     see_part({is_negative, longest, bottom}, {is_negative, bottom, longest}, bottom.rows, box, seen, covered);
     const VI rows = bottom.rows, rest = top.rows;

@@ -37,7 +37,7 @@ using SetUpPlainTriangles = bool (*)(const PlainTriangleRules& rules, const std:
                                      std::uint32_t primitive, std::span<const WindowCorner> corners,
                                      const std::uint32_t* marks, TriangleRecord* out, PlainFates& fates);
 
-// The kernel of the selected instruction set; null for scalar and on machines that are not little-endian.
+// The kernel of the selected instruction set; null for scalar and on computers that are not little-endian.
 [[nodiscard]] SetUpPlainTriangles set_up_plain_triangles() noexcept;
 // The same for CoverageRule::float_spans.
 [[nodiscard]] SetUpPlainTriangles set_up_plain_spans() noexcept;

@@ -18,10 +18,10 @@ HWY_INLINE VI most(VI a, VI b, VI c) { return hn::Max(hn::Max(a, b), c); }
 HWY_INLINE VI turn(VI v, VI turned) { return hn::Sub(hn::Xor(v, turned), turned); }
 
 // find_boxes, find_areas and find_edge of small_triangles.h, in registers.
-struct Boxes {
+struct TriangleBoxes {
     VI x0, y0, width, height, extent;
 };
-HWY_INLINE Boxes boxes_of(const GroupRules& rules, const VI (&x)[3], const VI (&y)[3]) {
+HWY_INLINE TriangleBoxes boxes_of(const GroupRules& rules, const VI (&x)[3], const VI (&y)[3]) {
     const VI half = set(1 << (rules.subpixel_bits - 1));
     const int bits = rules.subpixel_bits;
     const VI left = least(x[0], x[1], x[2]), right = most(x[0], x[1], x[2]);
@@ -33,7 +33,7 @@ HWY_INLINE Boxes boxes_of(const GroupRules& rules, const VI (&x)[3], const VI (&
         const VI end = hn::Add(hn::ShiftRightSame(hn::Sub(c, half), bits), set(1));
         return hn::Max(hn::Sub(hn::Min(end, set(clip)), begin), hn::Zero(I{}));
     };
-    Boxes b;
+    TriangleBoxes b;
     b.x0 = first(left, rules.clip.x0);
     b.y0 = first(top, rules.clip.y0);
     b.width = count(right, rules.clip.x1, b.x0);
@@ -46,7 +46,7 @@ HWY_INLINE Boxes boxes_of(const GroupRules& rules, const VI (&x)[3], const VI (&
 struct EdgeLanes {
     VI value, step, down;
 };
-HWY_INLINE EdgeLanes edge_of(const GroupRules& rules, const Boxes& b, VI from_x, VI from_y, VI to_x, VI to_y,
+HWY_INLINE EdgeLanes edge_of(const GroupRules& rules, const TriangleBoxes& b, VI from_x, VI from_y, VI to_x, VI to_y,
                              VI turned) {
     const bool left = rules.tie_rule == TieRule::top_left || rules.tie_rule == TieRule::bottom_left;
     const bool top = rules.tie_rule == TieRule::top_left || rules.tie_rule == TieRule::top_right;
@@ -62,7 +62,7 @@ HWY_INLINE EdgeLanes edge_of(const GroupRules& rules, const Boxes& b, VI from_x,
 }
 
 // The covered pixels of boxes of tiny_size pixels; unspecified for larger ones.
-HWY_INLINE VI coverage_of(const Boxes& b, const EdgeLanes (&edge)[3], Mask is_tiny) {
+HWY_INLINE VI coverage_of(const TriangleBoxes& b, const EdgeLanes (&edge)[3], Mask is_tiny) {
     VI covered = hn::Zero(I{});
     VI row[3] = {edge[0].value, edge[1].value, edge[2].value};
     for (int y = 0; y < tiny_size; ++y) {
@@ -87,7 +87,7 @@ HWY_INLINE bool find_shapes(const PlainTriangleRules& rules, const std::uint32_t
                             std::size_t first, PlainShapes& shapes) {
     VI x[3], y[3];
     for (int i = 0; i < 3; ++i) load_halves(corners, 0, indices + 3 * first + i, x[i], y[i]);
-    const Boxes b = boxes_of(rules.group, x, y);
+    const TriangleBoxes b = boxes_of(rules.group, x, y);
     const Mask is_large =
         hn::Or(hn::Or(hn::Gt(b.width, set(TriangleGroup::max_width)), hn::Gt(b.height, set(TriangleGroup::max_height))),
                hn::Gt(b.extent, set(TriangleGroup::max_extent)));

@@ -30,7 +30,7 @@ struct PlainVertexRules {
 // Bit i of the result: vertex i of the sixteen is plain, and its corner is written.
 using SetUpPlain = std::uint32_t (*)(const PlainVertexRules& rules, const ClipVertex* vertices, WindowCorner* corners);
 
-// The kernel of the selected instruction set; null for scalar, which has none, and on machines that are not
+// The kernel of the selected instruction set; null for scalar, which has none, and on computers that are not
 // little-endian. Look it up once per draw.
 [[nodiscard]] SetUpPlain set_up_plain() noexcept;
 

@@ -139,9 +139,9 @@ bool TriangleSetup::is_culled(bool front) const noexcept {
         case CullFace::none: return false;
         case CullFace::front: return front;
         case CullFace::back: return !front;
-        case CullFace::front_and_back: return true;
+        case CullFace::front_and_back: break;
     }
-    return false;  // unreachable: the enum is closed
+    return true;
 }
 
 // The order of the tests decides which fate is counted.

@@ -6,7 +6,6 @@
 // Numbers  The area is at most 2^52: at a covered pixel each edge value and each partial sum of them is in 0..area.
 // Tests    tests/rasterizer/values/chip_lanes_test.cpp, tests/rasterizer/walk/window_z_rows_test.cpp
 #pragma once
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -15,6 +14,7 @@
 #include "rasterizer/chip/truncated_weights.h"
 #include "rasterizer/rules/depth_code.h"
 #include "rasterizer/set_up/geometry.h"
+#include "rasterizer/values/depth/depth_scale.h"
 #include "rasterizer/values/pixel_weights.h"
 
 namespace strata::rasterizer {
@@ -77,29 +77,6 @@ struct NarrowWindowZ {
     bool is_narrow = true;  // false: the other fields are not valid
 
     NarrowWindowZ(const WindowZCorners& corners, const DepthHypothesis& h) noexcept;
-};
-
-// Converts a value in the buffer's own units to a code: clamped to two limits, then truncated. For fixed point the
-// limits are codes.
-struct ChipConversion {
-    CodeKind kind = CodeKind::fixed;  // fixed, d16f or d24f
-    double least = 0.0, greatest = 0.0;
-};
-
-// What a pass that stores window_z needs for a triangle: the conversion to codes, and the depth range that removes
-// fragments.
-struct ChipDepth {
-    ChipConversion to_code;
-    PolygonOffset offset;            // added per fragment (OffsetRule::fragments)
-    double least = 0, greatest = 0;  // the depth range in the buffer's own units
-    double low = 0, high = 0;        // the depth range in the units of vertex z
-    bool clips = false;              // ZClip::per_fragment without depth clamp
-
-    // A convex combination leaves the range only if a corner is outside; the products are exact.
-    [[nodiscard]] bool may_leave_range(const std::array<double, 3>& z) const noexcept {
-        const auto [nearest, farthest] = std::minmax({z[0], z[1], z[2]});
-        return clips && (nearest < low || farthest > high);
-    }
 };
 
 // A vertex colour's codes at the corners, and the output array of each channel; null if that channel is already

@@ -146,16 +146,11 @@ void plane_depth(const SetupTriangle& t, const TriangleLanes& lanes, double* out
     for (int i = 0; i < lanes.count; ++i) out[i] = plane.at(lanes.weight1[i], lanes.weight2[i]);
 }
 
-int window_z_depth(const SetupTriangle& t, const TriangleLanes& lanes, const DepthHypothesis& hypothesis,
-                   double* out) noexcept {
-    if (hypothesis.window_z == WindowZRule::float32) {
-        Lanes<float> z;
-        const int fallbacks = round_plane(RationalPlane{t.z}, lanes, z.data());
-        std::copy_n(z.begin(), lanes.count, out);
-        return fallbacks;
-    }
-    plane_depth(t, lanes, out);
-    return 0;
+int rounded_plane_depth(const SetupTriangle& t, const TriangleLanes& lanes, double* out) noexcept {
+    Lanes<float> z;
+    const int fallbacks = round_plane(RationalPlane{t.z}, lanes, z.data());
+    std::copy_n(z.begin(), lanes.count, out);
+    return fallbacks;
 }
 
 void add_rq(TriangleSoup& soup, const RasterState& state, const RasterRules& rules) {

@@ -39,11 +39,9 @@ int quotient_depth(const QuotientCorners& corners, const TriangleLanes& lanes, c
 void float32_plane_depth(const SetupTriangle& triangle, const RasterRules& rules, const TriangleLanes& lanes,
                          double* out) noexcept;
 
-// window_z_depth: the value of window_z under WindowZRule::float32 (the plane rounded once to binary32) or exact (as
-// plane_depth). plane_depth: the plane in binary64. Both in the units of vertex z; window_z_depth returns the number of
-// exact fallbacks.
-int window_z_depth(const SetupTriangle& triangle, const TriangleLanes& lanes, const DepthHypothesis& hypothesis,
-                   double* out) noexcept;
+// The plane of z rounded once to binary32, and in binary64, both in the units of vertex z. rounded_plane_depth returns
+// the number of exact fallbacks.
+int rounded_plane_depth(const SetupTriangle& triangle, const TriangleLanes& lanes, double* out) noexcept;
 void plane_depth(const SetupTriangle& triangle, const TriangleLanes& lanes, double* out) noexcept;
 
 // Adds r and q to vertices that have none: r = z S + w O with the viewport's scale S and offset O of z, each operation

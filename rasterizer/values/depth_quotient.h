@@ -44,9 +44,9 @@ inline namespace strict {
     switch (rule) {
         case DivideRule::exact: return n / d;
         case DivideRule::cut_reciprocal: return n * truncated_reciprocal(d);
-        case DivideRule::low_reciprocal: return n * toward_zero(1.0f / d);
+        case DivideRule::low_reciprocal: break;
     }
-    return 0.0f;  // unreachable: the enum is closed
+    return n * toward_zero(1.0f / d);
 }
 
 // Depth replace: true if d may be stored; false for NaN (depth.md 4.6).

@@ -2,7 +2,7 @@
 // instruction set, and their scalar reference.
 //
 // Rule     The scalar reference below is the definition; every instruction set gives the same bits (simd.h). `depth`
-//          has no scalar reference of its own: its meaning is FragmentValues::fill, which runs if `depth` is null or a
+//          has no scalar reference of its own: its meaning is DepthSteps::fill, which runs if `depth` is null or a
 //          lane is not certain.
 // Numbers  Loops run over whole blocks of lanes and may write up to 15 lanes past the count: usable_capacity.
 // Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp runs every available set against the scalar reference.

@@ -106,7 +106,7 @@ HWY_INLINE V32 less_or_second(V32 a, V32 b) {
 }
 
 // The operations of depth_text-inl.h. D16F is not among them: its passes run lane by lane.
-struct VectorLanes {
+struct DepthVectors {
     HWY_INLINE static V32 all(float v) { return hn::Set(F32{}, v); }
     HWY_INLINE static V32 greater_or_second(V32 a, V32 b) { return HWY_NAMESPACE::greater_or_second(a, b); }
     HWY_INLINE static V32 less_or_second(V32 a, V32 b) { return HWY_NAMESPACE::less_or_second(a, b); }
@@ -122,7 +122,7 @@ struct VectorLanes {
 template <bool is_fixed>
 HWY_INLINE hn::Vec<U32> codes(V32 z, const DepthConversion<float>& to) {
     constexpr CodeKind kind = is_fixed ? CodeKind::fixed : CodeKind::binary32;
-    return HWY_NAMESPACE::depth_code<kind>(VectorLanes{}, z, to);
+    return HWY_NAMESPACE::depth_code<kind>(DepthVectors{}, z, to);
 }
 HWY_INLINE hn::Vec<U32> codes(V32 z, const DepthConversion<float>& to) {
     return to.is_fixed() ? codes<true>(z, to) : codes<false>(z, to);

@@ -82,16 +82,15 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "rasterizer/base/simd_dispatch.h"
-#include "rasterizer/set_up/window.h"
+#include "rasterizer/values/depth/depth_scale.h"
 
 namespace strata::rasterizer {
 STRATA_EXPORT(draw_depth);
 
 DepthDrawn draw_float_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
                            const DepthRequest& depth, const Rect& region, std::uint32_t* codes) noexcept {
-    const FragmentValues values{geometry, depth, {.shader_z = false, .code = true, .color = false}};
-    return kernel_of(HWY_DISPATCH_TABLE(draw_depth))(geometry, triangles, values.to_code(),
-                                                     z_units(geometry.state, geometry.rules), region, codes);
+    const DepthScale scale = depth_scale(geometry, depth);
+    return kernel_of(HWY_DISPATCH_TABLE(draw_depth))(geometry, triangles, scale.to_code, scale.z_units, region, codes);
 }
 
 }  // namespace strata::rasterizer

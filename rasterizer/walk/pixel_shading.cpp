@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "rasterizer/values/fragment_values.h"
+
 namespace strata::rasterizer {
 
 namespace {
@@ -28,6 +30,20 @@ namespace {
 }
 
 }  // namespace
+
+// A point of the pixel, a geometry of the triangle that is filled, moved to that point, and its values.
+struct PixelShading::Point {
+    Geometry one;
+    FragmentValues values;
+    SubpixelPoint moved;  // from the corners of the sample to those of the point
+};
+
+struct PixelShading::Few {  // the fragments of one point
+    FragmentBatch batch;
+    WeightLanes weights{};
+};
+
+PixelShading::~PixelShading() = default;
 
 PixelShading::PixelShading(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs)
     : geometry_{geometry}, needs_{needs} {

@@ -11,7 +11,9 @@
 #include <optional>
 #include <vector>
 
-#include "rasterizer/values/fragment_values.h"
+#include "rasterizer/coverage/coverage.h"
+#include "rasterizer/set_up/geometry.h"
+#include "rasterizer/values/weight_lanes.h"
 
 namespace strata::rasterizer {
 
@@ -19,6 +21,7 @@ class PixelShading {
   public:
     // The geometry's state has a sample and an interpolation other than `sample`; the path does not replace depth.
     PixelShading(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs);
+    ~PixelShading();
 
     // True if the geometry evaluates values that are needed apart from its samples.
     [[nodiscard]] static bool is_used(const Geometry& geometry, const FragmentNeeds& needs) noexcept {
@@ -34,17 +37,8 @@ class PixelShading {
     [[nodiscard]] int fill(std::uint32_t index, int first, FragmentBatch& batch, WeightLanes& weights);
 
   private:
-    // A point of the pixel, a geometry of the triangle that is filled, moved to that point, and its values.
-    struct Point {
-        Geometry one;
-        FragmentValues values;
-        SubpixelPoint moved;  // from the corners of the sample to those of the point
-    };
-
-    struct Few {  // the fragments of one point
-        FragmentBatch batch;
-        WeightLanes weights{};
-    };
+    struct Point;
+    struct Few;
 
     [[nodiscard]] Point point_at(SamplePoint point, const DepthRequest& depth, const FragmentNeeds& needs) const;
     void take(std::uint32_t index, Point& point) const;

@@ -13,7 +13,7 @@
 // Tests    tests/rasterizer/walk/rows_test.cpp
 #include "hwy/highway.h"
 #include "rasterizer/coverage/small_coverage-inl.h"
-#include "rasterizer/values/fragment_values.h"
+#include "rasterizer/values/triangle_fragments.h"
 #include "rasterizer/values/weights-inl.h"
 #include "rasterizer/walk/rows.h"
 

@@ -2,7 +2,7 @@
 // once per instruction set.
 //
 // Rule     WindowZ24 and the codes of its values; ZClip::per_fragment drops fragments outside the depth range, for
-//          triangles that have a corner outside it (chip_values.cpp). Corners that are not narrow run lane by lane.
+//          triangles that have a corner outside it (depth_range.cpp). Corners that are not narrow run lane by lane.
 // How kernels are written: rasterizer/reference/kernels.md. Tests: tests/rasterizer/walk/window_z_rows_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/walk/window_z_rows_simd.cpp"
@@ -153,14 +153,15 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "rasterizer/base/simd_dispatch.h"
+#include "rasterizer/values/depth/depth_scale.h"
 
 namespace strata::rasterizer {
 STRATA_EXPORT(draw_window_z);
 
 DepthDrawn draw_window_z_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
                               const DepthRequest& depth, const Rect& region, std::uint32_t* codes) noexcept {
-    const FragmentValues values{geometry, depth, {.shader_z = false, .code = true, .color = false}};
-    return kernel_of(HWY_DISPATCH_TABLE(draw_window_z))(geometry, triangles, values.chip_depth(), region, codes);
+    const DepthScale scale = depth_scale(geometry, depth);
+    return kernel_of(HWY_DISPATCH_TABLE(draw_window_z))(geometry, triangles, scale.chip, region, codes);
 }
 
 }  // namespace strata::rasterizer

@@ -21,7 +21,7 @@ using rasterizer::WindowZ;
 using rasterizer::WindowZRule;
 
 // True if fragments outside the depth range are discarded by the NV2A's window z, whichever depth is stored
-// (chip_values.cpp).
+// (depth_range.cpp).
 bool drops_by_window_z(const RasterRules& r) {
     return r.z_clip == rasterizer::ZClip::per_fragment && r.window_z == WindowZ::buffer_units;
 }

@@ -33,6 +33,8 @@ TEST_CASE("a name is read back as its value and no other text is accepted") {
     for (std::size_t i = 0; i < enum_values<Fruit>.size(); ++i)
         CHECK(enum_named<Fruit>(enum_names<Fruit>[i]) == enum_values<Fruit>[i]);
     for (const char* text : {"", "apples", "Pear", "sour_cherry_", "Fruit::pear"}) CHECK_FALSE(enum_named<Fruit>(text));
+    CHECK(strata::enum_name(Fruit::pear) == "pear");
+    CHECK(strata::enum_name(static_cast<Fruit>(3)).empty());
     CHECK(strata::is_listed(Fruit::sour_cherry_2));
     CHECK_FALSE(strata::is_listed(static_cast<Fruit>(3)));
     CHECK_FALSE(strata::is_listed(static_cast<Fruit>(255)));

@@ -9,7 +9,7 @@
 namespace {
 
 using namespace strata::rasterizer;
-using Named = std::pair<std::string, Subject>;
+using Named = std::pair<std::string, HypothesisSubject>;
 
 [[nodiscard]] std::vector<Named> names_of(const std::vector<NamedHypothesis>& list) {
     std::vector<Named> names;
@@ -17,7 +17,8 @@ using Named = std::pair<std::string, Subject>;
     return names;
 }
 
-void add_numbers(std::vector<Named>& names, const std::string& name, Subject subject, const std::vector<int>& numbers) {
+void add_numbers(std::vector<Named>& names, const std::string& name, HypothesisSubject subject,
+                 const std::vector<int>& numbers) {
     for (const int n : numbers) names.emplace_back(name + "=" + std::to_string(n), subject);
 }
 
@@ -69,21 +70,21 @@ void add_numbers(std::vector<Named>& names, const std::string& name, Subject sub
 
 TEST_CASE("the hypotheses of depth are those listed in this order with the values that each can change") {
     std::vector<Named> expected;
-    add_numbers(expected, "interpolant_bits", Subject::texture_depth, {16, 17, 18, 19, 20, 21, 22, 23});
-    expected.emplace_back("interpolant_bits=double", Subject::texture_depth);
-    expected.emplace_back("divide=cut_reciprocal", Subject::texture_depth);
-    expected.emplace_back("divide=low_reciprocal", Subject::texture_depth);
-    expected.emplace_back("window_z=exact", Subject::window_depth);
-    expected.emplace_back("window_z=float32", Subject::window_depth);
-    expected.emplace_back("weights=area", Subject::window_depth);
-    add_numbers(expected, "reciprocal_deficit", Subject::window_depth, {0, 1, 3, 4});
-    add_numbers(expected, "reciprocal_bits", Subject::window_depth, {24, 25, 26, 27, 28, 30});
-    add_numbers(expected, "sum_bits", Subject::window_depth, {24, 25, 26, 27, 28});
-    expected.emplace_back("w_slope=last_quad", Subject::window_depth);
-    expected.emplace_back("offset_rule=fragments", Subject::window_depth);
-    expected.emplace_back("depth_rounding=floor", Subject::window_depth);
-    expected.emplace_back("quantize_reference=false", Subject::texture_depth);
-    expected.emplace_back("plane_anchor=window_corner", Subject::window_depth);
+    add_numbers(expected, "interpolant_bits", HypothesisSubject::texture_depth, {16, 17, 18, 19, 20, 21, 22, 23});
+    expected.emplace_back("interpolant_bits=double", HypothesisSubject::texture_depth);
+    expected.emplace_back("divide=cut_reciprocal", HypothesisSubject::texture_depth);
+    expected.emplace_back("divide=low_reciprocal", HypothesisSubject::texture_depth);
+    expected.emplace_back("window_z=exact", HypothesisSubject::window_depth);
+    expected.emplace_back("window_z=float32", HypothesisSubject::window_depth);
+    expected.emplace_back("weights=area", HypothesisSubject::window_depth);
+    add_numbers(expected, "reciprocal_deficit", HypothesisSubject::window_depth, {0, 1, 3, 4});
+    add_numbers(expected, "reciprocal_bits", HypothesisSubject::window_depth, {24, 25, 26, 27, 28, 30});
+    add_numbers(expected, "sum_bits", HypothesisSubject::window_depth, {24, 25, 26, 27, 28});
+    expected.emplace_back("w_slope=last_quad", HypothesisSubject::window_depth);
+    expected.emplace_back("offset_rule=fragments", HypothesisSubject::window_depth);
+    expected.emplace_back("depth_rounding=floor", HypothesisSubject::window_depth);
+    expected.emplace_back("quantize_reference=false", HypothesisSubject::texture_depth);
+    expected.emplace_back("plane_anchor=window_corner", HypothesisSubject::window_depth);
     const auto list = depth_hypotheses({});
     CHECK(names_of(list) == expected);
     CHECK(list[0].name == "as given");
@@ -103,21 +104,21 @@ TEST_CASE("where the given rules have another value the list has the default ins
                         .w_slope = WSlope::last_quad,
                         .plane_anchor = PlaneAnchor::window_corner};
     std::vector<Named> expected;
-    add_numbers(expected, "interpolant_bits", Subject::texture_depth, {16, 17, 18, 19, 20, 21, 22, 23, 24});
-    expected.emplace_back("divide=exact", Subject::texture_depth);
-    expected.emplace_back("divide=cut_reciprocal", Subject::texture_depth);
-    expected.emplace_back("window_z=chip", Subject::window_depth);
-    expected.emplace_back("window_z=exact", Subject::window_depth);
-    expected.emplace_back("weights=area", Subject::window_depth);  // with 28 bits
-    expected.emplace_back("weights=cut_edges", Subject::window_depth);
-    add_numbers(expected, "reciprocal_deficit", Subject::window_depth, {0, 1, 2, 3});
-    add_numbers(expected, "reciprocal_bits", Subject::window_depth, {25, 26, 27, 28, 29, 30});
-    add_numbers(expected, "sum_bits", Subject::window_depth, {25, 26, 27, 28, 29});
-    expected.emplace_back("w_slope=first_quad", Subject::window_depth);
-    expected.emplace_back("offset_rule=corners", Subject::window_depth);
-    expected.emplace_back("depth_rounding=nearest", Subject::window_depth);
-    expected.emplace_back("quantize_reference=true", Subject::texture_depth);
-    expected.emplace_back("plane_anchor=first_vertex", Subject::window_depth);
+    add_numbers(expected, "interpolant_bits", HypothesisSubject::texture_depth, {16, 17, 18, 19, 20, 21, 22, 23, 24});
+    expected.emplace_back("divide=exact", HypothesisSubject::texture_depth);
+    expected.emplace_back("divide=cut_reciprocal", HypothesisSubject::texture_depth);
+    expected.emplace_back("window_z=chip", HypothesisSubject::window_depth);
+    expected.emplace_back("window_z=exact", HypothesisSubject::window_depth);
+    expected.emplace_back("weights=area", HypothesisSubject::window_depth);  // with 28 bits
+    expected.emplace_back("weights=cut_edges", HypothesisSubject::window_depth);
+    add_numbers(expected, "reciprocal_deficit", HypothesisSubject::window_depth, {0, 1, 2, 3});
+    add_numbers(expected, "reciprocal_bits", HypothesisSubject::window_depth, {25, 26, 27, 28, 29, 30});
+    add_numbers(expected, "sum_bits", HypothesisSubject::window_depth, {25, 26, 27, 28, 29});
+    expected.emplace_back("w_slope=first_quad", HypothesisSubject::window_depth);
+    expected.emplace_back("offset_rule=corners", HypothesisSubject::window_depth);
+    expected.emplace_back("depth_rounding=nearest", HypothesisSubject::window_depth);
+    expected.emplace_back("quantize_reference=true", HypothesisSubject::texture_depth);
+    expected.emplace_back("plane_anchor=first_vertex", HypothesisSubject::window_depth);
     const auto list = depth_hypotheses(given);
     CHECK(names_of(list) == expected);
     CHECK(list[0].rules == given);
@@ -126,22 +127,22 @@ TEST_CASE("where the given rules have another value the list has the default ins
 
 TEST_CASE("the hypotheses of interpolation are those listed in this order for colours and for coordinates") {
     std::vector<Named> expected;
-    add_numbers(expected, "vertex_color_bits", Subject::color, {12, 13, 14, 15, 16});
-    expected.emplace_back("perspective_color=weight_products", Subject::color);
-    expected.emplace_back("perspective_color=cut_products", Subject::color);
-    expected.emplace_back("perspective_coordinates=cut_products", Subject::coordinates);
-    expected.emplace_back("texture_coordinates=cut_weights", Subject::coordinates);
+    add_numbers(expected, "vertex_color_bits", HypothesisSubject::color, {12, 13, 14, 15, 16});
+    expected.emplace_back("perspective_color=weight_products", HypothesisSubject::color);
+    expected.emplace_back("perspective_color=cut_products", HypothesisSubject::color);
+    expected.emplace_back("perspective_coordinates=cut_products", HypothesisSubject::coordinates);
+    expected.emplace_back("texture_coordinates=cut_weights", HypothesisSubject::coordinates);
     CHECK(names_of(interpolation_hypotheses({})) == expected);
     CHECK(first_misnamed(interpolation_hypotheses({})).empty());
     RasterRules chip;
     chip.interpolation = {14, PerspectiveColor::weight_products, CoordinateRule::cut_weights,
                           PerspectiveCoordinates::cut_products};
     expected.clear();
-    add_numbers(expected, "vertex_color_bits", Subject::color, {12, 13, 15, 16, 24});
-    expected.emplace_back("perspective_color=edge_products", Subject::color);
-    expected.emplace_back("perspective_color=cut_products", Subject::color);
-    expected.emplace_back("perspective_coordinates=exact_plane", Subject::coordinates);
-    expected.emplace_back("texture_coordinates=exact_plane", Subject::coordinates);
+    add_numbers(expected, "vertex_color_bits", HypothesisSubject::color, {12, 13, 15, 16, 24});
+    expected.emplace_back("perspective_color=edge_products", HypothesisSubject::color);
+    expected.emplace_back("perspective_color=cut_products", HypothesisSubject::color);
+    expected.emplace_back("perspective_coordinates=exact_plane", HypothesisSubject::coordinates);
+    expected.emplace_back("texture_coordinates=exact_plane", HypothesisSubject::coordinates);
     CHECK(names_of(interpolation_hypotheses(chip)) == expected);
     CHECK(first_misnamed(interpolation_hypotheses(chip)).empty());
 }
