@@ -20,7 +20,7 @@ using rasterizer::DepthPath;
 
 // The scene and the device of an experiment. Every capture makes its own renderer, because options differ between
 // captures.
-struct Machine {
+struct SceneOnDevice {
     const DrawList& list;
     const View& view;
     const DeviceProfile& profile;
@@ -46,34 +46,34 @@ bool draws_twice(const RenderOptions& options) {
 }
 
 // The image of the oracle, which the device's formats do not limit.
-Image true_picture(const Machine& machine, RenderOptions options) {
-    DeviceProfile profile = machine.profile;
+Image true_picture(const SceneOnDevice& scene, RenderOptions options) {
+    DeviceProfile profile = scene.profile;
     // Binary32 colours and every fragment of a pixel, so that neither rounding nor a device limit affects the image.
     profile.has_float_targets = true;
     options.color_format = Format::rgba32f;
     options.audit = options.keep_layers = options.nearest_depth = false;
-    Renderer renderer(machine.list, machine.view, profile, options);
+    Renderer renderer(scene.list, scene.view, profile, options);
     return renderer.render(*find_algorithm("a_buffer")).frame.color;
 }
 
 // The fragments of the first pass and of later ones. Their codes are in the algorithm's key.
 struct Passes {
-    const Machine& machine;
-    const Experiment& e;
+    const SceneOnDevice& scene;
+    const InvarianceCase& e;
 
     [[nodiscard]] FrameFragments first(const RenderOptions& options, const Algorithm& algorithm) const {
-        return keyed(machine.fragments(options, algorithm), algorithm.key);
+        return keyed(scene.fragments(options, algorithm), algorithm.key);
     }
     // The fragments that later passes draw, captured in a frame whose first pass draws them.
     [[nodiscard]] FrameFragments further(RenderOptions options, const Algorithm& algorithm) const {
-        const DrawList& list = options.second_list != nullptr ? *options.second_list : machine.list;
+        const DrawList& list = options.second_list != nullptr ? *options.second_list : scene.list;
         if (options.vertex_paths.second) options.vertex_paths.first = options.vertex_paths.second;
         options.raster.depth_clamp = options.second_depth_clamp.value_or(options.raster.depth_clamp);
         options.second_list = nullptr;
         options.second_depth_clamp.reset();
         options.vertex_paths.second.reset();
         options.window_origin = e.moved_window;
-        return keyed(Machine{list, machine.view, machine.profile}.fragments(options, algorithm), algorithm.key);
+        return keyed(SceneOnDevice{list, scene.view, scene.profile}.fragments(options, algorithm), algorithm.key);
     }
 };
 
@@ -92,7 +92,7 @@ void add_layer_fragments(std::vector<LayerFragment>& all, const FrameFragments& 
 // The layers; each fragment with the depth that the peel gives it, or with two where later passes draw it at another
 // depth.
 std::vector<LayerFragment> layer_fragments(const Passes& passes) {
-    const Experiment& e = passes.e;
+    const InvarianceCase& e = passes.e;
     const FrameFragments truth = passes.first(bare(e.render, e.write), *e.algorithm);
     RenderOptions options = e.render;
     options.depth_path = e.write;
@@ -108,7 +108,7 @@ std::vector<LayerFragment> layer_fragments(const Passes& passes) {
 
 // The default limit is twice the passes of a correct peel (one per layer and one that finds nothing), enough to see a
 // layer repeated.
-RenderOptions peel_options(const Experiment& e, int layers) {
+RenderOptions peel_options(const InvarianceCase& e, int layers) {
     RenderOptions options = e.render;
     options.depth_path = e.write;
     options.reference_path = e.compare;
@@ -121,14 +121,14 @@ RenderOptions peel_options(const Experiment& e, int layers) {
 
 // The trace and all fragments are kept in memory, so frames should be of modest size.
 void run_peel(Measurement& m, const Passes& passes) {
-    const Experiment& e = passes.e;
+    const InvarianceCase& e = passes.e;
     const std::vector<LayerFragment> fragments = layer_fragments(passes);
     const int layers = peel_errors(fragments, {}, e.render.width, e.render.height).layers_max;
     const RenderOptions options = peel_options(e, layers);
-    Renderer renderer(passes.machine.list, passes.machine.view, passes.machine.profile, options);
+    Renderer renderer(passes.scene.list, passes.scene.view, passes.scene.profile, options);
     std::vector<RegionTrace> traces;
     RenderResult result = renderer.render_traced(*e.algorithm, traces);
-    if (result.refusal) throw Refused{passes.machine.profile, *std::move(result.refusal)};
+    if (result.refusal) throw Refused{passes.scene.profile, *std::move(result.refusal)};
     m.errors = peel_errors(fragments, traces, options.width, options.height);
     m.passes = result.frame.passes.geometry;
     m.ended = m.passes < options.max_passes;
@@ -142,7 +142,7 @@ bool is_quotient(DepthPath path) { return path == DepthPath::perspective_rq || p
 
 // The proof in safe_range.h requires two depths of the same fragments and a quantised reference. Otherwise no advice is
 // given.
-Advice advice_for(const Experiment& e, rasterizer::OffsetUnit unit, const std::vector<PathPair>& pairs,
+Advice advice_for(const InvarianceCase& e, rasterizer::OffsetUnit unit, const std::vector<PathPair>& pairs,
                   const std::vector<std::uint32_t>& opaque) {
     Advice advice;
     if (draws_twice(e.render) || !e.render.quantize_reference || e.algorithm->key != DepthKey::stored_code)
@@ -165,15 +165,15 @@ FrameFragments keyed(FrameFragments fragments, DepthKey key) {
     return fragments;
 }
 
-Measurement measure(const DrawList& list, const View& view, const DeviceProfile& profile, const Experiment& e) {
-    const Machine machine{list, view, profile};
-    const Passes passes{machine, e};
+Measurement measure(const DrawList& list, const View& view, const DeviceProfile& profile, const InvarianceCase& e) {
+    const SceneOnDevice scene{list, view, profile};
+    const Passes passes{scene, e};
     Measurement m;
     try {
         const FrameFragments written = passes.first(bare(e.render, e.write), unsorted_algorithm());
         DeviceProfile writes_anything = profile;  // the depths of both paths are stored so that they can be captured
         writes_anything.has_fragment_programs = true;
-        const Machine meter{list, view, writes_anything};
+        const SceneOnDevice meter{list, view, writes_anything};
         const FrameFragments compared = Passes{meter, e}.further(bare(e.render, e.compare), unsorted_algorithm());
         const PairedFragments pairs = pair_up(written.all, compared.all, e.match);
         m.paths = compare(pairs);
@@ -182,7 +182,7 @@ Measurement measure(const DrawList& list, const View& view, const DeviceProfile&
         if (!m.peeled) return m;
         m.advice = advice_for(e, profile.raster.offset_unit, pairs.pairs, written.opaque);
         run_peel(m, passes);
-        m.truth = true_picture(machine, bare(e.render, e.write));
+        m.truth = true_picture(scene, bare(e.render, e.write));
         m.image = image_error(m.picture, m.truth);
     } catch (const Refused& refused) {
         // Values measured before the refusal are dropped, so that no incomplete experiment is reported.

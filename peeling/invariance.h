@@ -2,7 +2,7 @@
 // computed differently.
 //
 // Rule     `write` computes the depth that is stored, `compare` the depth that a later pass compares with it. The
-//          fragments of both are paired and counted; the peel is then run on the emulated machine with that pair and
+//          fragments of both are paired and counted; the peel is then run on the emulated device with that pair and
 //          the given remedy (bias, epsilon, quantisation), and its trace and image are compared with the exact
 //          A-buffer.
 // Source   Everitt 2001; peeling/reference/audit.md 11; pipeline/reference/texturing.md 4.1;
@@ -27,7 +27,7 @@ namespace strata::peeling {
 
 struct FrameFragments;  // peeling/render.h
 
-struct Experiment {
+struct InvarianceCase {
     // Size, format, alpha, the remedy, and what later passes draw (second list, vertex path, clamp). The experiment
     // sets depth_path, reference_path, max_passes and audit itself.
     RenderOptions render;
@@ -52,7 +52,7 @@ struct Advice {
 };
 
 struct Measurement {
-    pipeline::Verdict refusal;  // if set, all other members are empty
+    std::optional<pipeline::Refusal> refusal;  // if set, all other members are empty
     PathComparison paths;
     PeelErrors errors;
     int passes = 0;     // geometry passes of the peel
@@ -70,6 +70,6 @@ struct Measurement {
 
 // If the profile lacks a required feature, the result has a refusal; no exception is thrown.
 [[nodiscard]] Measurement measure(const pipeline::DrawList& list, const pipeline::View& view,
-                                  const pipeline::DeviceProfile& profile, const Experiment& experiment);
+                                  const pipeline::DeviceProfile& profile, const InvarianceCase& experiment);
 
 }  // namespace strata::peeling

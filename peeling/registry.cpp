@@ -31,7 +31,7 @@ const Algorithm* find_algorithm(std::string_view name) {
 }
 
 // Only the number of targets is checked here: each pass checks their blend states (pipeline/frame/check_pass.h).
-pipeline::Verdict refusal(const Algorithm& algorithm, const pipeline::DeviceProfile& profile) {
+std::optional<pipeline::Refusal> refusal(const Algorithm& algorithm, const pipeline::DeviceProfile& profile) {
     if (auto lacking = check(profile, std::span{algorithm.features})) return lacking;
     const std::vector<pipeline::Blend> targets(static_cast<std::size_t>(algorithm.render_targets));
     if (auto lacking = check(profile, std::span{targets})) return lacking;

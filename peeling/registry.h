@@ -13,7 +13,8 @@ namespace strata::peeling {
 [[nodiscard]] const Algorithm* find_algorithm(std::string_view name);  // null if there is none
 
 // The first feature required by the algorithm that the profile lacks.
-[[nodiscard]] pipeline::Verdict refusal(const Algorithm& algorithm, const pipeline::DeviceProfile& profile);
+[[nodiscard]] std::optional<pipeline::Refusal> refusal(const Algorithm& algorithm,
+                                                       const pipeline::DeviceProfile& profile);
 
 // The function that is executed for every region: the algorithm's resolve if it applies, else its passes. `algorithm`
 // must outlive it.

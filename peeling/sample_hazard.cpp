@@ -1,3 +1,5 @@
+// peeling/sample_hazard.cpp - counts, sample by sample, the layers that a peel lost, doubled or
+// misplaced: from a trace of each sample's frame and the sample's own fragments (sample_hazard.h).
 #include "peeling/sample_hazard.h"
 
 #include <algorithm>
@@ -165,10 +167,9 @@ SampleHazard measure_samples(const DrawList& list, const View& view, const Devic
                              const Multisampling& multisampling) {
     const HazardInput input{list, view, profile, options, algorithm, multisampling};
     SampleHazard hazard;
-    // It traces the depths in its own sample's targets, not the fragments that it composites.
-    if (multisampling.is_joint() && algorithm.name == "dual") {
-        hazard.refusal = Refusal{"counts of the layers that dual composites by loads of another sample", "",
-                                 "use dual_independent, which compares alike"};
+    if (multisampling.is_joint() && algorithm.traces_own_targets) {
+        hazard.refusal = Refusal{"layer counts for " + algorithm.name + " when it loads another sample", "",
+                                 "use dual_independent, which compares in the same way"};
         return hazard;
     }
     SampledRenderer renderer{list, view, profile, options, multisampling};

@@ -19,7 +19,7 @@ namespace strata::peeling {
 enum class SampleEdge : std::uint8_t { inside, inner_edge, silhouette };
 
 struct SampleHazard {
-    pipeline::Verdict refusal;  // if set, all other members are empty
+    std::optional<pipeline::Refusal> refusal;  // if set, all other members are empty
     std::uint64_t layers = 0, lost = 0, doubled = 0, misplaced = 0;
     std::uint64_t samples = 0;  // that have a layer
     std::uint64_t at_silhouettes = 0, at_inner_edges = 0, inside = 0;

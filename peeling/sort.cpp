@@ -1,5 +1,5 @@
 // peeling/sort.cpp - computes keys, then one stable sort per rule: equal keys keep the order of the list, so the result
-// is the same on every machine.
+// is the same on every computer.
 #include "peeling/sort.h"
 
 #include <algorithm>

@@ -32,12 +32,12 @@ std::string path_inside(const std::string& folder, const std::string& name, cons
     const InsideFolder found = inside_folder(folder, name);
     const std::string expected = "a file in the folder " + (folder.empty() ? "." : folder);
     switch (found.status) {
-        case inside: return (fs::path{folder} / name).string();
+        case inside: break;
         case nothing: throw InputError(file, location, expected, "'" + name + "', which is not there");
         case name_leaves: throw InputError(file, location, expected, "'" + name + "', which leaves it");
         case link_leaves: throw InputError(file, location, expected, "'" + name + "', a link that leaves it");
     }
-    return "";  // unreachable: the enum is closed
+    return (fs::path{folder} / name).string();
 }
 
 }  // namespace strata::scenes

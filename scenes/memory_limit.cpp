@@ -62,7 +62,7 @@ void check_pixels(const std::string& file, std::uint64_t width, std::uint64_t he
     if (!free || need <= *free) return;
     throw InputError(file, "size",
                      "a picture that takes at most " + memory_text(*free) +
-                         (has_limit ? ", which --max-memory leaves" : ", which this machine has free"),
+                         (has_limit ? ", which --max-memory leaves" : ", which this computer has free"),
                      std::to_string(width) + "x" + std::to_string(height) + ", which takes about " + memory_text(need));
 }
 

@@ -1,6 +1,7 @@
 // peeling/algorithms/algorithm.h - the description of an algorithm: its paper, requirements, tie policy and pass
 // formula.
 #pragma once
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -48,6 +49,9 @@ struct Algorithm {
     bool runs_loops = false;  // its loops follow one another: runs in tiles only if each query depends on its tile
                               // alone
     bool compares_own_codes = false;  // compares only its stored code: rejected where options choose another depth
+    bool traces_own_targets = false;  // its trace has the depths in its own sample's targets, not those of the sample
+                                      // that it loads: losses cannot be counted where it loads another
+    bool shows_depth_paths = false;   // the measurement of flicker draws it by every depth path
     bool has_published_form = false;  // the listing has errata: --formulation published runs it as printed
     int (*geometry_passes)(int layers) = nullptr;  // the formula; null if layers do not determine it
     void (*run)(pipeline::Region&) = nullptr;
@@ -77,5 +81,9 @@ struct Algorithm {
         return {.shader_z = !is_code, .code = is_code, .color = true};
     }
 };
+
+[[nodiscard]] inline bool needs(const Algorithm& algorithm, pipeline::Feature feature) noexcept {
+    return std::find(algorithm.features.begin(), algorithm.features.end(), feature) != algorithm.features.end();
+}
 
 }  // namespace strata::peeling

@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t objects_in_a_batch = 4;
 
 // Codes [low, high), and the objects that may have fragments in it.
-struct Interval {
+struct CodeInterval {
     std::uint32_t low = 0, high = 0;
     std::vector<PrimitiveRange> objects;
 };
@@ -62,12 +62,12 @@ std::vector<std::uint32_t> bounds_of(const std::vector<ObjectDepths>& objects) {
 
 // Intervals cover all codes and do not overlap, so each fragment is peeled once. An object is drawn in every interval
 // that its depth bounds overlap; an interval without objects has nothing to peel.
-std::vector<Interval> intervals_of(const Frame& frame) {
+std::vector<CodeInterval> intervals_of(const Frame& frame) {
     const auto objects = objects_of(frame);
     const auto bounds = bounds_of(objects);
-    std::vector<Interval> intervals;
+    std::vector<CodeInterval> intervals;
     for (std::size_t j = 0; j + 1 < bounds.size(); ++j) {
-        Interval interval{bounds[j], bounds[j + 1], {}};
+        CodeInterval interval{bounds[j], bounds[j + 1], {}};
         for (const ObjectDepths& o : objects)
             if (o.low < interval.high && o.high >= interval.low) interval.objects.push_back(o.primitives);
         if (!interval.objects.empty()) intervals.push_back(std::move(interval));
@@ -80,7 +80,7 @@ struct LayerTargets {
 };
 
 // front_to_back's peel over the interval's objects, with one more discard: codes outside [low, high).
-DrawCounts peel(Region& region, const Interval& interval, const LayerTargets& t, bool first) {
+DrawCounts peel(Region& region, const CodeInterval& interval, const LayerTargets& t, bool first) {
     region.clear(t.layer, {.color = {0, 0, 0, 0}});
     region.copy(region.opaque_depth(), t.nearest);
     PassState state;
@@ -109,7 +109,7 @@ void run(Region& region) {
     region.set_name(t.nearest, "nearest");
     region.set_name(t.accumulated, "accumulated");
     region.clear(t.accumulated, {.color = {0, 0, 0, 1}});
-    for (const Interval& interval : intervals_of(region.frame())) {
+    for (const CodeInterval& interval : intervals_of(region.frame())) {
         region.begin_loop();
         for (bool first = true; !region.limit_reached(); first = false) {
             region.begin_iteration();

@@ -60,11 +60,7 @@ void run(Region& region) {
         }
         region.keep_layer(layer, nearest);
     }
-    const Target result = region.make_color();
-    region.set_name(result, "result");
-    region.copy(region.opaque_color(), result);
-    composite_quads(region, layers, result);
-    region.publish(result);
+    publish_quads(region, layers);
 }
 
 std::vector<Algorithm> entries() {

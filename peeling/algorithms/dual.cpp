@@ -155,6 +155,7 @@ std::vector<Algorithm> entries() {
                       .exact = true,
                       .makes_layers = true,
                       .takes_both_ends = true,
+                      .traces_own_targets = true,
                       .geometry_passes = [](int layers) { return 1 + std::max(1, (layers + 1) / 2); },
                       .run = run_plain,
                       .run_with = run,

@@ -20,7 +20,7 @@ using namespace pipeline;
 
 namespace {
 
-struct End {
+struct PeelEnd {
     Region& region;
     Side side;
     Target ties = region.make(Format::rgba32f), next_ties = region.make(Format::rgba32f);
@@ -29,16 +29,16 @@ struct End {
     GroupTrace trace{region, side};
 };
 
-struct Peel {
+struct DualTiesPeel {
     Region& region;
     Target min_max = region.make(Format::rg32f), next_min_max = region.make(Format::rg32f);
     Target front = region.make_color(), back = region.make(region.frame().behind_format());
-    End near{region, Side::front}, far{region, Side::back};
+    PeelEnd near{region, Side::front}, far{region, Side::back};
 };
 
 // Counts the fragments that are left at each end, and finds the least and the greatest number of their triangles. Where
 // both ends have one depth, it is the end at which the group was begun, or the near one.
-void count_ties(const Peel& p) {
+void count_ties(const DualTiesPeel& p) {
     PassState state;
     state.color = {p.near.next_ties, p.far.next_ties};
     state.blend = {extremes_and_count, extremes_and_count};
@@ -60,7 +60,7 @@ void count_ties(const Peel& p) {
 
 // Draws up to two fragments of each end into a layer each, and finds the next depths: those between the ends, and an
 // end itself if more than these are left there.
-void take_four(Peel& p) {
+void take_four(DualTiesPeel& p) {
     PassState state;
     state.color = {p.next_min_max, p.near.first, p.near.last, p.far.first, p.far.last};
     for (std::size_t t = 0; t < 5; ++t) state.blend[t] = blend_mode::max;
@@ -92,7 +92,7 @@ void take_four(Peel& p) {
 
 // Blends the outer fragment of an end, and the rest of its group where the group has ended. Counts the pixels that have
 // a next depth.
-DrawCounts composite(Peel& p, End& end, const Blend& blend, Target result) {
+DrawCounts composite(DualTiesPeel& p, PeelEnd& end, const Blend& blend, Target result) {
     const bool is_near = end.side == Side::front;
     set_aside(p.region, is_near ? end.last : end.first, is_near ? InFront::layer : InFront::group, end.group, end.ties,
               end.next_group);
@@ -103,10 +103,10 @@ DrawCounts composite(Peel& p, End& end, const Blend& blend, Target result) {
 }
 
 void run(Region& region) {
-    Peel p{region};
+    DualTiesPeel p{region};
     region.set_name(p.min_max, "min_max"), region.set_name(p.next_min_max, "min_max");
     region.set_name(p.front, "front"), region.set_name(p.back, "back");
-    for (const End* end : {&p.near, &p.far})
+    for (const PeelEnd* end : {&p.near, &p.far})
         name_group_targets(region, {end->ties, end->next_ties}, {end->first, end->last}, {end->group, end->next_group});
     Blend over = over_background(region.frame());
     over.color = over.alpha = premultiplied_over;

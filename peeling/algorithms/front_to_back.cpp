@@ -95,6 +95,7 @@ std::vector<Algorithm> entries() {
                       .exact = true,
                       .makes_layers = true,
                       .premultiplied_layers = true,
+                      .shows_depth_paths = true,
                       .geometry_passes = every_layer_and_one,
                       .run = run_plain,
                       .run_with = run,

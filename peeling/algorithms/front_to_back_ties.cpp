@@ -22,7 +22,7 @@ namespace {
 
 constexpr ClearValue none{.color = {-1, -1, -1, -1}};  // depth 1, at which nothing is visible
 
-struct Peel {
+struct TiesPeel {
     Region& region;
     Target nearest = region.make(Format::r32f), next_nearest = region.make(Format::r32f);
     Target ties = region.make(Format::rgba32f), next_ties = region.make(Format::rgba32f);
@@ -32,7 +32,7 @@ struct Peel {
     GroupTrace trace{region, Side::front};
 };
 
-void find_nearest(const Peel& p) {
+void find_nearest(const TiesPeel& p) {
     p.region.clear(p.nearest, none);
     PassState state;
     state.color[0] = p.nearest;
@@ -46,7 +46,7 @@ void find_nearest(const Peel& p) {
 }
 
 // Counts the fragments that are left at the depth, and finds the least and the greatest number of their triangles.
-void count_ties(const Peel& p) {
+void count_ties(const TiesPeel& p) {
     p.region.clear(p.next_ties, no_ties);
     PassState state;
     state.color[0] = p.next_ties;
@@ -63,7 +63,7 @@ void count_ties(const Peel& p) {
 }
 
 // Draws the two fragments into a layer each, and finds the next depth: the same one if more than these are left.
-void take_two(Peel& p) {
+void take_two(TiesPeel& p) {
     p.region.clear(p.next_nearest, none);
     for (const Target layer : {p.first, p.last}) p.region.clear(layer, {});
     PassState state;
@@ -89,7 +89,7 @@ void take_two(Peel& p) {
 }
 
 // Blends the first fragment, and the rest of its group where the group has ended. Counts the pixels with a next depth.
-DrawCounts composite(Peel& p) {
+DrawCounts composite(TiesPeel& p) {
     set_aside(p.region, p.last, InFront::layer, p.group, p.ties, p.next_group);
     blend_layer(p.region, p.first, blend_mode::under, p.accumulated);
     std::swap(p.nearest, p.next_nearest), std::swap(p.ties, p.next_ties), std::swap(p.group, p.next_group);
@@ -98,7 +98,7 @@ DrawCounts composite(Peel& p) {
 }
 
 void run(Region& region) {
-    Peel p{region};
+    TiesPeel p{region};
     region.set_name(p.nearest, "nearest"), region.set_name(p.next_nearest, "nearest");
     region.set_name(p.accumulated, "accumulated");
     name_group_targets(region, {p.ties, p.next_ties}, {p.first, p.last}, {p.group, p.next_group});

@@ -17,7 +17,7 @@ using namespace pipeline;
 
 namespace {
 
-struct Buffers {
+struct ShadowTargets {
     Target color, depth;  // targets of the frame
     Target map;           // the depth texture of the previous pass; none in the first
 };
@@ -26,7 +26,7 @@ struct Buffers {
 // discards alpha 0. The map's texel is the one at the fragment's own pixel: s/q and t/q of a screen-aligned lookup are
 // off by less than a subpixel (pipeline/reference/texturing.md 2.4). Fragments that store alpha 0 are also discarded in
 // pass 0: a layer of theirs would be invisible.
-DrawCounts peel(Region& region, const Buffers& to) {
+DrawCounts peel(Region& region, const ShadowTargets& to) {
     const bool first = !to.map.exists();
     const DepthCompare compare = region.frame().depth_compare();
     PassState state;
@@ -61,7 +61,7 @@ DrawCounts peel(Region& region, const Buffers& to) {
 }  // namespace
 
 void run(Region& region) {
-    Buffers buffers{region.make_color(), region.make_depth(), {}};
+    ShadowTargets buffers{region.make_color(), region.make_depth(), {}};
     region.set_name(buffers.color, "color");
     region.set_name(buffers.depth, "depth");
     SavedLayers layers;
@@ -81,11 +81,7 @@ void run(Region& region) {
         }
         region.keep_layer(layers.color.back(), layers.depth.back());
     }
-    const Target result = region.make_color();
-    region.set_name(result, "result");
-    region.copy(region.opaque_color(), result);
-    composite_quads(region, layers, result);
-    region.publish(result);
+    publish_quads(region, layers);
 }
 
 std::vector<Algorithm> entries() {

@@ -23,14 +23,14 @@ namespace {
 constexpr int pass_samples = 8;  // one fragment per sample
 constexpr int most_passes = 31;  // the stencil of the last sample starts at 8 - 1 + 2 + 8 p, which must be <= 255
 
-struct Capture {
+struct CaptureTargets {
     Target color, depth;
 };
 
 // Every fragment decrements all stencils, saturating at 0; the sample whose stencil is 2 stores it.
-Capture capture(Region& region, Target stencil, int pass) {
-    const Capture into{region.make(region.frame().color_format, pass_samples),
-                       region.make(target_format(region.frame().key_request().format), pass_samples)};
+CaptureTargets capture(Region& region, Target stencil, int pass) {
+    const CaptureTargets into{region.make(region.frame().color_format, pass_samples),
+                              region.make(target_format(region.frame().key_request().format), pass_samples)};
     region.set_name(into.color, "samples_color");
     region.set_name(into.depth, "samples_depth");
     region.clear(into.depth, {.depth = 1.0f});  // the depth of a sample that stays empty: no visible fragment has it
@@ -71,9 +71,9 @@ Count overflowing(Region& region, Target stencil) {
 }
 
 // The planes of every sample that the passes have filled, in submission order.
-std::vector<SamplePlanes> samples_of(const Region& region, const std::vector<Capture>& captures) {
+std::vector<SamplePlanes> samples_of(const Region& region, const std::vector<CaptureTargets>& captures) {
     std::vector<SamplePlanes> samples;
-    for (const Capture& c : captures)
+    for (const CaptureTargets& c : captures)
         for (int s = 0; s < pass_samples; ++s)
             samples.push_back({region.storage(c.depth).depth(s), region.storage(c.color).texels(s)});
     return samples;
@@ -81,7 +81,7 @@ std::vector<SamplePlanes> samples_of(const Region& region, const std::vector<Cap
 
 // A full-screen pass that loads every sample. It has more reads than a pass can name, so it runs here instead, and is
 // counted in the statistics.
-Target resolve(Region& region, const std::vector<Capture>& captures) {
+Target resolve(Region& region, const std::vector<CaptureTargets>& captures) {
     RegionShortcuts shortcuts{region};
     const Target result = region.make(region.frame().picture_format());
     region.set_name(result, "result");
@@ -99,7 +99,8 @@ Target resolve(Region& region, const std::vector<Capture>& captures) {
     };
     shortcuts.count_passes({.full_screen = 1});
     shortcuts.count({.bytes_read = bytes(region.opaque_color()), .bytes_written = bytes(result)});
-    for (const Capture& c : captures) shortcuts.count({.bytes_read = pass_samples * (bytes(c.color) + bytes(c.depth))});
+    for (const CaptureTargets& c : captures)
+        shortcuts.count({.bytes_read = pass_samples * (bytes(c.color) + bytes(c.depth))});
     return result;
 }
 
@@ -118,7 +119,7 @@ void report_overflow(Region& region, Target stencil) {
 void run(Region& region) {
     const Target stencil = region.make(Format::s8, pass_samples);
     region.set_name(stencil, "stencil");
-    std::vector<Capture> captures;
+    std::vector<CaptureTargets> captures;
     while (static_cast<int>(captures.size()) < most_passes && !region.limit_reached()) {
         region.begin_iteration();
         captures.push_back(capture(region, stencil, static_cast<int>(captures.size())));

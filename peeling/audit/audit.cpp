@@ -273,9 +273,10 @@ struct Audit::Impl {
             for (const AuditMemory& memory : {shared, alone})
                 all.add(run_all_again(std::exchange(all.left, {}), result, memory));
         } catch (const NeedsFrame&) {
-            throw InputError("strata", "--fragment-memory",
-                             "room for the trace of the whole frame, as its lookups leave their tiles, or --no-audit",
-                             std::to_string(bytes));
+            throw InputError(
+                "strata", "--fragment-memory",
+                "more memory for the trace of the whole frame (its lookups read beyond their tiles), or --no-audit",
+                std::to_string(bytes));
         }
         if (!all.left.empty()) throw_too_large(all.left.front());
         // A frame without pixels has 0 order errors rather than "no order".

@@ -10,11 +10,11 @@ namespace strata::peeling {
 namespace {
 
 // The depths that each pixel composited, in any order.
-struct Composited {
+struct CompositedKeys {
     std::vector<std::size_t> start;
     std::vector<std::uint32_t> keys;
 
-    Composited(std::span<const RegionTrace> traces, std::size_t width, std::size_t height)
+    CompositedKeys(std::span<const RegionTrace> traces, std::size_t width, std::size_t height)
         : start(width * height + 1, 0) {
         // Pixel indices of trace entries are relative to the region; they are converted to the frame.
         const auto for_each = [&](auto&& body) {
@@ -83,7 +83,7 @@ void look_at(PeelErrors& errors, std::span<const LayerFragment> pixel, std::span
 PeelErrors peel_errors(std::span<const LayerFragment> fragments, std::span<const RegionTrace> traces, int width,
                        int height) {
     const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
-    const Composited composited(traces, columns, rows);
+    const CompositedKeys composited(traces, columns, rows);
     PeelErrors errors;
     errors.map.assign(columns * rows, 0);
     for (std::size_t begin = 0; begin < fragments.size();) {

@@ -76,7 +76,7 @@ SafeRange range_of(std::span<const PathPair> pairs, std::span<const std::uint32_
 
 // Compares a fragment's reference with a stored code, as a program does. The doubles from 0 to 1 are ordered like their
 // bits.
-struct Comparison {
+struct CodePair {
     pipeline::DepthFormat format;
     std::uint32_t reference, stored;
 
@@ -121,11 +121,11 @@ SafeAbsolute safe_absolute(std::span<const PathPair> pairs, std::span<const std:
     std::uint64_t lowest = 0, lost_from = one_bits + 1;  // safe: lowest <= epsilon < lost_from
     for_each_pixel(pairs, opaque, [&](const std::vector<PathPair>& layers, std::uint32_t) {
         for (std::size_t i = 0; i < layers.size(); ++i) {
-            const Comparison own{format, layers[i].reference, layers[i].stored};
+            const CodePair own{format, layers[i].reference, layers[i].stored};
             // Only a fragment that violates the current bound needs a search.
             if (own.is_behind(lowest)) lowest = own.least_that_hides(lowest, one_bits + 1);
             if (i + 1 == layers.size()) continue;
-            const Comparison next{format, layers[i + 1].reference, layers[i].stored};
+            const CodePair next{format, layers[i + 1].reference, layers[i].stored};
             if (lost_from > 0 && !next.is_behind(lost_from - 1)) lost_from = next.least_that_hides(0, lost_from - 1);
         }
     });

@@ -24,12 +24,12 @@ struct AllLanes {
 
 // Some lists of a block, with their front and back during the passes. Dual peeling of lists without ties.
 template <class Rules>
-class Lists {
+class BlockLists {
   public:
     using Target = StoredColors<Rules>;
     using Held = typename Target::Held;
 
-    HWY_INLINE Lists(const ListBlock& block, std::size_t lane, const BlockRules& rules)
+    HWY_INLINE BlockLists(const ListBlock& block, std::size_t lane, const BlockRules& rules)
         : block_{block}, lane_{lane}, most_{rules.most_passes}, target_{rules.color} {
         visible_ = hn::LoadU(Words{}, &block.visible[lane]);
         alive_ = hn::Add(visible_, hn::LoadU(Words{}, &block.hidden[lane]));
@@ -165,7 +165,7 @@ bool both_ends(const ListBlock& block, BlockCodes& front, BlockCodes& back, cons
     bool is_plain = true;
     pipeline::with_rules(rules.color, [&]<class Rules>(Rules) HWY_ATTR {
         for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
-            is_plain &= Lists<Rules>{block, lane, rules}.both_ends(front, back);
+            is_plain &= BlockLists<Rules>{block, lane, rules}.both_ends(front, back);
     });
     return is_plain;
 }

@@ -23,9 +23,9 @@ std::span<const PrimitiveRange> as_span(const std::optional<PrimitiveRange>& ran
     return {&*range, 1};
 }
 
-class Peel {
+class SetsPeel {
   public:
-    Peel(Region& region, const PeelSets& sets)
+    SetsPeel(Region& region, const PeelSets& sets)
         : region_{region},
           sets_{sets},
           ties_{region},
@@ -125,6 +125,6 @@ class Peel {
 
 }  // namespace
 
-void peel_sets(Region& region, const PeelSets& sets) { Peel{region, sets}.run(); }
+void peel_sets(Region& region, const PeelSets& sets) { SetsPeel{region, sets}.run(); }
 
 }  // namespace strata::peeling

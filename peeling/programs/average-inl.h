@@ -24,7 +24,7 @@ using WordVec = hn::Vec<Words>;
 using FloatVec = hn::Vec<Floats>;
 
 // The operations of scalar::OneAverage, where they are documented, for vectors.
-struct VectorLanes {
+struct AverageLanes {
     HWY_INLINE static FloatVec all(float v) { return hn::Set(Floats{}, v); }
     HWY_INLINE static WordVec whole(FloatVec n) {
         const Floats d;

@@ -11,7 +11,10 @@ using namespace pipeline;
 // OVER, far to near (peeling/reference/algorithms.md 2). A pixel without such a layer has alpha 0, which leaves the
 // target unchanged, and the opaque depth, by which the trace recognises it. Only the trace reads the depths; without
 // one they are bound as textures instead of loads.
-void composite_quads(Region& region, const SavedLayers& layers, Target result) {
+void publish_quads(Region& region, const SavedLayers& layers) {
+    const Target result = region.make_color();
+    region.set_name(result, "result");
+    region.copy(region.opaque_color(), result);
     for (std::size_t layer = layers.color.size(); layer-- > 0;) {
         PassState state;
         state.color[0] = result;
@@ -24,6 +27,7 @@ void composite_quads(Region& region, const SavedLayers& layers, Target result) {
                 if (is_traced) trace_layer(loads, lanes(in), Side::back, out);
             }));
     }
+    region.publish(result);
 }
 
 void composite_layer(Region& region, Target layer, Target depth, Target accumulated) {

@@ -12,7 +12,8 @@ struct SavedLayers {
     std::vector<pipeline::Target> color, depth;  // near to far
 };
 
-// The work of a layer's quad is counted in the iteration that made the layer; the first iteration is 1.
-void composite_quads(pipeline::Region& region, const SavedLayers& layers, pipeline::Target result);
+// Publishes the layers composited over the opaque picture. The work of a layer's quad is counted in the iteration that
+// made the layer; the first iteration is 1.
+void publish_quads(pipeline::Region& region, const SavedLayers& layers);
 
 }  // namespace strata::peeling

@@ -49,7 +49,7 @@ void average_lanes(const ColorLanes& sums, const FloatLanes& n, const ColorLanes
                    std::size_t count) {
     namespace hn = hwy::HWY_NAMESPACE;
     const average::Floats d;
-    constexpr average::VectorLanes lanes;
+    constexpr average::AverageLanes lanes;
     for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
         const auto a = hn::LoadU(d, &sums[3][i]), number = hn::LoadU(d, &n[i]);
         const auto has = average::has_average(a, number);

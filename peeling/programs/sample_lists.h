@@ -52,18 +52,18 @@ namespace sample_formats {
 
 // Converts a channel's code to a value; `bits` is its width.
 template <pipeline::UnormRounding rounding>
-struct Bytes {
+struct ByteChannels {
     static constexpr std::size_t bits = 8;
     static float value(std::uint32_t code) noexcept { return pipeline::code_value<rounding>(code); }
 };
 template <pipeline::HalfRounding rounding>
-struct Halves {
+struct HalfChannels {
     static constexpr std::size_t bits = 16;
     static float value(std::uint32_t code) noexcept {
         return pipeline::half_value<rounding>(static_cast<std::uint16_t>(code));
     }
 };
-struct Singles {
+struct SingleChannels {
     static constexpr std::size_t bits = 32;
     static float value(std::uint32_t code) noexcept { return std::bit_cast<float>(code); }
 };
@@ -104,16 +104,16 @@ inline Rgba SampleLists::composite(std::uint32_t pixel, const pipeline::Texels& 
     std::ranges::sort(words_);
     using enum pipeline::UnormRounding;
     using enum pipeline::HalfRounding;
-    if (background.bits_per_channel == 32) return composite_as<Singles>(pixel, background);
+    if (background.bits_per_channel == 32) return composite_as<SingleChannels>(pixel, background);
     if (background.bits_per_channel == 16 && rounding_.half == no_infinity)
-        return composite_as<Halves<no_infinity>>(pixel, background);
-    if (background.bits_per_channel == 16) return composite_as<Halves<nearest_even>>(pixel, background);
+        return composite_as<HalfChannels<no_infinity>>(pixel, background);
+    if (background.bits_per_channel == 16) return composite_as<HalfChannels<nearest_even>>(pixel, background);
     switch (rounding_.unorm) {
-        case half_up: return composite_as<Bytes<half_up>>(pixel, background);
-        case product_even: return composite_as<Bytes<product_even>>(pixel, background);
-        case product_even_wide: return composite_as<Bytes<product_even_wide>>(pixel, background);
+        case half_up: return composite_as<ByteChannels<half_up>>(pixel, background);
+        case product_even: return composite_as<ByteChannels<product_even>>(pixel, background);
+        case product_even_wide: break;
     }
-    return {};  // unreachable: the enum is closed
+    return composite_as<ByteChannels<product_even_wide>>(pixel, background);
 }
 
 }  // namespace strata::peeling

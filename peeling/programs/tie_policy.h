@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "rasterizer/base/enum_values.h"
+
 namespace strata::peeling {
 
 enum class TiePolicy : std::uint8_t {
@@ -15,6 +17,6 @@ enum class TiePolicy : std::uint8_t {
     first_then_last,  // `first` in the front half of the keys, `last` in the back half (dual_independent)
 };
 
-[[nodiscard]] std::string_view name(TiePolicy policy) noexcept;
+[[nodiscard]] constexpr std::string_view name(TiePolicy policy) noexcept { return enum_name(policy); }
 
 }  // namespace strata::peeling

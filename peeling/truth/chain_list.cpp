@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "peeling/prepared_lists.h"
+#include "peeling/frame/prepared_lists.h"
 #include "peeling/raster_state.h"
 #include "peeling/truth/real_geometry.h"
 #include "peeling/truth/real_texture.h"

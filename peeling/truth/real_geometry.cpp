@@ -76,9 +76,9 @@ void clip(const RasterState& state, std::vector<RealVertex>& polygon) {
     cut([](const RealVertex& v) { return v[3] - v[2]; }, polygon);
 }
 
-enum class Facing : std::uint8_t { front, back };
+enum class ShownSide : std::uint8_t { front, back };
 
-[[nodiscard]] RealCorner project(const RealVertex& v, const RasterState& state, Facing facing) {
+[[nodiscard]] RealCorner project(const RealVertex& v, const RasterState& state, ShownSide facing) {
     const rasterizer::Rect& port = state.viewport;
     const double half_x = 0.5 * port.width(), half_y = 0.5 * port.height();
     const double up = state.y_direction == rasterizer::YDirection::up ? -1 : 1;
@@ -88,7 +88,7 @@ enum class Facing : std::uint8_t { front, back };
                       .y = up * half_y * (v[1] / v[3]) + (port.y0 + half_y),
                       .z = symmetric ? (f - n) * 0.5 * z + (n + f) * 0.5 : (f - n) * z + n,
                       .inverse_w = 1 / v[3]};
-    const std::size_t color = facing == Facing::front ? 4 : 4 + colors;
+    const std::size_t color = facing == ShownSide::front ? 4 : 4 + colors;
     for (std::size_t c = 0; c < colors; ++c) corner.value[c] = v[color + c];
     corner.value[colors] = v[4 + 2 * colors];
     corner.value[colors + 1] = v[4 + 2 * colors + 1];
@@ -96,30 +96,30 @@ enum class Facing : std::uint8_t { front, back };
 }
 
 // As setup.cpp decides it, from the sign of the snapped area.
-[[nodiscard]] Facing facing_of(int winding, const RasterState& state, bool is_mirrored) {
+[[nodiscard]] ShownSide facing_of(int winding, const RasterState& state, bool is_mirrored) {
     const bool clockwise = (winding > 0) == (state.y_direction == rasterizer::YDirection::up);
     const bool is_front = (clockwise == (state.front_face == rasterizer::FrontFace::clockwise)) != is_mirrored;
-    return is_front ? Facing::front : Facing::back;
+    return is_front ? ShownSide::front : ShownSide::back;
 }
 
-[[nodiscard]] bool is_culled(rasterizer::CullFace cull, Facing facing) {
+[[nodiscard]] bool is_culled(rasterizer::CullFace cull, ShownSide facing) {
     using enum rasterizer::CullFace;
-    return cull == front_and_back || cull == (facing == Facing::front ? front : back);
+    return cull == front_and_back || cull == (facing == ShownSide::front ? front : back);
 }
 
 void add_fan(const std::vector<RealVertex>& polygon, const rasterizer::TriangleRun& run, std::uint32_t primitive,
              const RasterState& state, std::vector<RealTriangle>& triangles) {
     for (std::size_t i = 2; i < polygon.size(); ++i) {
-        const auto made = [&](Facing facing) {
+        const auto made = [&](ShownSide facing) {
             return RealTriangle{{project(polygon[0], state, facing), project(polygon[i - 1], state, facing),
                                  project(polygon[i], state, facing)},
                                 primitive,
                                 run.material};
         };
-        const RealTriangle triangle = made(Facing::front);
-        const Facing facing = facing_of(triangle.winding(), state, run.mirrored);
+        const RealTriangle triangle = made(ShownSide::front);
+        const ShownSide facing = facing_of(triangle.winding(), state, run.mirrored);
         if (triangle.winding() == 0 || (!run.double_sided && is_culled(state.cull, facing))) continue;
-        triangles.push_back(facing == Facing::front ? triangle : made(Facing::back));
+        triangles.push_back(facing == ShownSide::front ? triangle : made(ShownSide::back));
     }
 }
 

@@ -15,7 +15,7 @@ using rasterizer::Rect;
 namespace {
 
 // An edge function at a point, and its exact sign.
-struct Side {
+struct EdgeSide {
     double value;
     int sign;
 };
@@ -34,14 +34,14 @@ struct Side {
     return sum.sign();
 }
 
-[[nodiscard]] Side side(const RealCorner& from, const RealCorner& to, double x, double y) noexcept {
+[[nodiscard]] EdgeSide side(const RealCorner& from, const RealCorner& to, double x, double y) noexcept {
     const bool is_turned = to.x < from.x || (to.x == from.x && to.y < from.y);
     const RealCorner &a = is_turned ? to : from, &b = is_turned ? from : to;
     const double right = (b.x - a.x) * (y - a.y), left = (b.y - a.y) * (x - a.x);
     const double value = right - left;
     const bool is_certain = std::fabs(value) > 0x1p-50 * (std::fabs(right) + std::fabs(left));
     const int sign = is_certain ? sign_of(value) : exact_sign(a, b, x, y);
-    return is_turned ? Side{-value, -sign} : Side{value, sign};
+    return is_turned ? EdgeSide{-value, -sign} : EdgeSide{value, sign};
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ RealWeights RealTriangle::weights(int x, int y) const noexcept {
     RealWeights weights{{}, winding_ != 0};
     for (std::size_t i = 0; i < 3; ++i) {
         const RealCorner &from = corner_[(i + 1) % 3], &to = corner_[(i + 2) % 3];
-        const Side here = side(from, to, x + 0.5, y + 0.5);
+        const EdgeSide here = side(from, to, x + 0.5, y + 0.5);
         weights.b[i] = here.value;
         const int inward = winding_ * here.sign;
         const bool owns = Edge::owns_ties(winding_ * sign_of(to.x - from.x), winding_ * sign_of(to.y - from.y),

@@ -161,7 +161,7 @@ RealImage render_chain(const ChainScene& scene, const Chain& chain) {
                           rules.clip == rasterizer::ClipVolume::guard_band;
     if (chain != exact_chain && !is_known)
         throw InputError("profile", "raster",
-                         "exact planes, snapped edges and a guard band (the chain of links knows no others)",
+                         "exact planes, snapped edges and a guard band (the error chain models no others)",
                          "those of " + scene.profile.name);
     const FloatEnvironment ours;
     const SimdScope kernels{scene.options.simd};

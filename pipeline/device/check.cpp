@@ -71,8 +71,8 @@ std::string way_out(auto can) {
 }
 
 // Checks a number that a profile limits.
-Verdict check_limit(const DeviceProfile& profile, int DeviceProfile::*limit, int wanted, const std::string& feature,
-                    const std::string& extension) {
+std::optional<Refusal> check_limit(const DeviceProfile& profile, int DeviceProfile::*limit, int wanted,
+                                   const std::string& feature, const std::string& extension) {
     if (wanted <= profile.*limit) return std::nullopt;
     return Refusal{feature, extension, way_out([&](const DeviceProfile& p) { return wanted <= p.*limit; })};
 }
@@ -94,43 +94,42 @@ std::string Refusal::message(const DeviceProfile& profile) const {
 
 bool has(const DeviceProfile& profile, Feature feature) { return profile.*rule(feature).has; }
 
-Verdict check(const DeviceProfile& profile, Feature feature) {
+std::optional<Refusal> check(const DeviceProfile& profile, Feature feature) {
     if (has(profile, feature)) return std::nullopt;
     const FeatureRule& missing = rule(feature);
     return Refusal{std::string{missing.words}, std::string{missing.extension},
                    way_out([&](const DeviceProfile& p) { return has(p, feature); })};
 }
 
-Verdict check(const DeviceProfile& profile, std::span<const Feature> needed) {
+std::optional<Refusal> check(const DeviceProfile& profile, std::span<const Feature> needed) {
     for (const Feature feature : needed)
-        if (Verdict refusal = check(profile, feature)) return refusal;
+        if (std::optional<Refusal> refusal = check(profile, feature)) return refusal;
     return std::nullopt;
 }
 
-Verdict check(const DeviceProfile&, UnsupportedState state) {
+std::optional<Refusal> check(const DeviceProfile&, UnsupportedState state) {
     switch (state) {
         case UnsupportedState::fog: return Refusal{"fog", "EXT_fog_coord", "disable it: no algorithm here needs it"};
         case UnsupportedState::color_sum:
             return Refusal{"colour sum", "EXT_secondary_color", "disable it: no algorithm here needs it"};
         case UnsupportedState::dither: return Refusal{"dithering", "", "disable it: no algorithm here needs it"};
-        case UnsupportedState::logic_op:
-            return Refusal{"logic operations", "EXT_blend_logic_op", "disable it: no algorithm here needs it"};
+        case UnsupportedState::logic_op: break;
     }
-    return std::nullopt;  // unreachable: the enum is closed
+    return Refusal{"logic operations", "EXT_blend_logic_op", "disable it: no algorithm here needs it"};
 }
 
-Verdict check(const DeviceProfile& profile, DepthFormat format) {
+std::optional<Refusal> check(const DeviceProfile& profile, DepthFormat format) {
     switch (format) {
         case DepthFormat::d16: return check(profile, Feature::d16);
         case DepthFormat::d24: return check(profile, Feature::d24);
         case DepthFormat::d32f: return check(profile, Feature::d32f);
         case DepthFormat::d16f: return check(profile, Feature::d16f);
-        case DepthFormat::d24f: return check(profile, Feature::d24f);
+        case DepthFormat::d24f: break;
     }
-    return std::nullopt;  // unreachable: the enum is closed
+    return check(profile, Feature::d24f);
 }
 
-Verdict check(const DeviceProfile& profile, Format target) {
+std::optional<Refusal> check(const DeviceProfile& profile, Format target) {
     if (is_depth(target)) return check(profile, depth_format(target));
     const ChannelType type = info(target).type;
     if (type == ChannelType::half || type == ChannelType::single) return check(profile, Feature::float_targets);
@@ -138,91 +137,92 @@ Verdict check(const DeviceProfile& profile, Format target) {
     return std::nullopt;
 }
 
-Verdict check(const DeviceProfile& profile, const StencilTest& state) {
+std::optional<Refusal> check(const DeviceProfile& profile, const StencilTest& state) {
     if (state.enabled && state.two_sided) return check(profile, Feature::two_sided_stencil);
     return std::nullopt;
 }
 
-Verdict check(const DeviceProfile& profile, const Blend& state) {
+std::optional<Refusal> check(const DeviceProfile& profile, const Blend& state) {
     const auto is_signed = [](const BlendTerm& term) {
         return term.equation == BlendEquation::signed_add || term.equation == BlendEquation::signed_reverse_subtract;
     };
     if (state.enabled && (is_signed(state.color) || is_signed(state.alpha)))
-        if (Verdict refusal = check(profile, Feature::signed_blend)) return refusal;
+        if (std::optional<Refusal> refusal = check(profile, Feature::signed_blend)) return refusal;
     if (state.enabled && state.color != state.alpha) return check(profile, Feature::separate_alpha_blend);
     return std::nullopt;
 }
 
-Verdict check(const DeviceProfile& profile, std::span<const Blend> targets) {
+std::optional<Refusal> check(const DeviceProfile& profile, std::span<const Blend> targets) {
     const int count = static_cast<int>(targets.size());
-    if (Verdict refusal = check_limit(profile, &DeviceProfile::max_render_targets, count,
-                                      std::to_string(count) + " render targets in one pass", "ARB_draw_buffers"))
+    if (std::optional<Refusal> refusal =
+            check_limit(profile, &DeviceProfile::max_render_targets, count,
+                        std::to_string(count) + " render targets in one pass", "ARB_draw_buffers"))
         return refusal;
     // The first target that blends: all other blending targets are compared with it.
     const Blend* first = nullptr;
     for (const Blend& target : targets) {
-        if (Verdict refusal = check(profile, target)) return refusal;
+        if (std::optional<Refusal> refusal = check(profile, target)) return refusal;
         if (!target.enabled) continue;
         if (first != nullptr && !shares_terms(*first, target))
-            if (Verdict refusal = check(profile, Feature::independent_blend)) return refusal;
+            if (std::optional<Refusal> refusal = check(profile, Feature::independent_blend)) return refusal;
         if (first == nullptr) first = &target;
     }
     return std::nullopt;
 }
 
 // A program may compare r/q on every device; only a texture shader replaces depth (devices.md 9.2).
-Verdict check_reference(const DeviceProfile& profile, rasterizer::DepthPath compared) {
+std::optional<Refusal> check_reference(const DeviceProfile& profile, rasterizer::DepthPath compared) {
     if (compared == rasterizer::DepthPath::depth_replace) return check(profile, Feature::depth_replace);
     return std::nullopt;
 }
 
 // Without programs r/q can be compared but not written: depth replace is the only stage that writes it.
-Verdict check(const DeviceProfile& profile, rasterizer::DepthPath written) {
+std::optional<Refusal> check(const DeviceProfile& profile, rasterizer::DepthPath written) {
     if (written == rasterizer::DepthPath::perspective_rq && !profile.has_fragment_programs)
         return Refusal{"fragment programs that write a depth", "ARB_fragment_program",
                        "use depth path depth_replace, which writes the same depth"};
     return check_reference(profile, written);
 }
 
-Verdict check_depth_clear(const DeviceProfile& profile, DepthFormat format, float value) {
+std::optional<Refusal> check_depth_clear(const DeviceProfile& profile, DepthFormat format, float value) {
     const bool is_clamped = value >= 0.0f && value <= 1.0f;
     // Fixed-point formats clamp the value, so the device needs no feature.
     if (format != DepthFormat::d32f || is_clamped) return std::nullopt;
     return check(profile, Feature::unclamped_depth_clear);
 }
 
-Verdict check_size(const DeviceProfile& profile, int width_px, int height_px) {
+std::optional<Refusal> check_size(const DeviceProfile& profile, int width_px, int height_px) {
     const int larger = width_px > height_px ? width_px : height_px;
     return check_limit(profile, &DeviceProfile::max_viewport_px, larger,
                        "viewport of " + std::to_string(width_px) + " x " + std::to_string(height_px) + " pixels", "");
 }
 
-Verdict check_samples(const DeviceProfile& profile, int samples) {
+std::optional<Refusal> check_samples(const DeviceProfile& profile, int samples) {
     return check_limit(profile, &DeviceProfile::max_samples, samples, std::to_string(samples) + " samples per pixel",
                        "ARB_multisample");
 }
 
-Verdict check_multisampling(const DeviceProfile& profile, int samples) {
+std::optional<Refusal> check_multisampling(const DeviceProfile& profile, int samples) {
     // Devices with float spans have no sample positions: their binary32 positions cannot be moved exactly.
     const auto has = [samples](const DeviceProfile& p) {
         return samples >= p.min_samples && samples <= p.max_samples &&
                p.raster.coverage == rasterizer::CoverageRule::snapped_edges;
     };
     if (samples == 1 || has(profile)) return std::nullopt;
-    return Refusal{"pictures of " + std::to_string(samples) + " samples per pixel", "ARB_multisample", way_out(has)};
+    return Refusal{std::to_string(samples) + " samples per pixel", "ARB_multisample", way_out(has)};
 }
 
-Verdict check_interpolation(const DeviceProfile& profile, rasterizer::Interpolation interpolation) {
+std::optional<Refusal> check_interpolation(const DeviceProfile& profile, rasterizer::Interpolation interpolation) {
     const auto is_known = [](const DeviceProfile& p) {
         return p.raster.color == rasterizer::ColorInterpolation::exact_plane &&
                p.raster.interpolation.texture_coordinates == rasterizer::CoordinateRule::exact_plane;
     };
     if (interpolation != rasterizer::Interpolation::centre || is_known(profile)) return std::nullopt;
-    return Refusal{"known colours at a pixel's centre outside the triangle", "",
+    return Refusal{"measured colours at pixel centres outside the triangle", "",
                    way_out(is_known) + ", or --interpolate centroid"};
 }
 
-Verdict check_texture_units(const DeviceProfile& profile, int units) {
+std::optional<Refusal> check_texture_units(const DeviceProfile& profile, int units) {
     return check_limit(profile, &DeviceProfile::max_texture_units, units, std::to_string(units) + " texture units",
                        "ARB_multitexture");
 }

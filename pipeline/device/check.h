@@ -66,38 +66,37 @@ struct Refused : std::runtime_error {
     Refusal refusal;
 };
 
-// Empty if the profile supports the state.
-using Verdict = std::optional<Refusal>;
-
-// has: true if the profile has a feature. check: empty, or the Refusal of the first missing feature.
+// has: true if the profile has a feature. check: empty if the profile supports the state, else the Refusal of the first
+// missing feature.
 [[nodiscard]] bool has(const DeviceProfile& profile, Feature feature);
-[[nodiscard]] Verdict check(const DeviceProfile& profile, Feature feature);
-[[nodiscard]] Verdict check(const DeviceProfile& profile, std::span<const Feature> needed);
+[[nodiscard]] std::optional<Refusal> check(const DeviceProfile& profile, Feature feature);
+[[nodiscard]] std::optional<Refusal> check(const DeviceProfile& profile, std::span<const Feature> needed);
 
 // Single pieces of state. A disabled stencil test or blend is never rejected.
-[[nodiscard]] Verdict check(const DeviceProfile& profile, UnsupportedState state);
-[[nodiscard]] Verdict check(const DeviceProfile& profile, DepthFormat format);
-[[nodiscard]] Verdict check(const DeviceProfile& profile, Format target);
-[[nodiscard]] Verdict check(const DeviceProfile& profile, const StencilTest& state);
-[[nodiscard]] Verdict check(const DeviceProfile& profile, const Blend& state);
+[[nodiscard]] std::optional<Refusal> check(const DeviceProfile& profile, UnsupportedState state);
+[[nodiscard]] std::optional<Refusal> check(const DeviceProfile& profile, DepthFormat format);
+[[nodiscard]] std::optional<Refusal> check(const DeviceProfile& profile, Format target);
+[[nodiscard]] std::optional<Refusal> check(const DeviceProfile& profile, const StencilTest& state);
+[[nodiscard]] std::optional<Refusal> check(const DeviceProfile& profile, const Blend& state);
 // All targets of a pass: their number, each blend, and whether different blends are possible. Enables and write masks
 // may always differ (EXT_draw_buffers2); equations, factors and constants of the blending targets may differ only with
 // independent blending.
-[[nodiscard]] Verdict check(const DeviceProfile& profile, std::span<const Blend> targets);
+[[nodiscard]] std::optional<Refusal> check(const DeviceProfile& profile, std::span<const Blend> targets);
 // The path by which a depth buffer is written; check_reference: the path that a program or a shadow comparison
 // compares.
-[[nodiscard]] Verdict check(const DeviceProfile& profile, rasterizer::DepthPath written);
-[[nodiscard]] Verdict check_reference(const DeviceProfile& profile, rasterizer::DepthPath compared);
+[[nodiscard]] std::optional<Refusal> check(const DeviceProfile& profile, rasterizer::DepthPath written);
+[[nodiscard]] std::optional<Refusal> check_reference(const DeviceProfile& profile, rasterizer::DepthPath compared);
 // A D32F clear outside 0..1 needs has_unclamped_depth_clear; every other format clamps (formats.md 5.5).
-[[nodiscard]] Verdict check_depth_clear(const DeviceProfile& profile, DepthFormat format, float value);
+[[nodiscard]] std::optional<Refusal> check_depth_clear(const DeviceProfile& profile, DepthFormat format, float value);
 // Limits (devices.md 7): the larger side of the viewport, samples per pixel, texture units of a pass.
-[[nodiscard]] Verdict check_size(const DeviceProfile& profile, int width_px, int height_px);
+[[nodiscard]] std::optional<Refusal> check_size(const DeviceProfile& profile, int width_px, int height_px);
 // check_samples: targets whose samples a pass fills itself. check_multisampling: images whose samples have positions; a
 // device may support only some of 2, 4 and 8.
-[[nodiscard]] Verdict check_samples(const DeviceProfile& profile, int samples);
-[[nodiscard]] Verdict check_multisampling(const DeviceProfile& profile, int samples);
+[[nodiscard]] std::optional<Refusal> check_samples(const DeviceProfile& profile, int samples);
+[[nodiscard]] std::optional<Refusal> check_multisampling(const DeviceProfile& profile, int samples);
 // Values at a pixel's centre where the triangle does not cover it: how chips with weights of few bits go on is unknown.
-[[nodiscard]] Verdict check_interpolation(const DeviceProfile& profile, rasterizer::Interpolation interpolation);
-[[nodiscard]] Verdict check_texture_units(const DeviceProfile& profile, int units);
+[[nodiscard]] std::optional<Refusal> check_interpolation(const DeviceProfile& profile,
+                                                         rasterizer::Interpolation interpolation);
+[[nodiscard]] std::optional<Refusal> check_texture_units(const DeviceProfile& profile, int units);
 
 }  // namespace strata::pipeline

@@ -221,12 +221,12 @@ DeviceProfile with_origin(DeviceProfile profile, Origin origin) {
     if (profile.raster.y_axis == YAxis::clip) return profile;  // its ties are named along clip-space y
     TieRule& ties = profile.raster.tie_rule;
     switch (ties) {
-        case TieRule::top_left: ties = TieRule::bottom_left; return profile;
-        case TieRule::bottom_left: ties = TieRule::top_left; return profile;
-        case TieRule::top_right: ties = TieRule::bottom_right; return profile;
-        case TieRule::bottom_right: ties = TieRule::top_right; return profile;
+        case TieRule::top_left: ties = TieRule::bottom_left; break;
+        case TieRule::bottom_left: ties = TieRule::top_left; break;
+        case TieRule::top_right: ties = TieRule::bottom_right; break;
+        case TieRule::bottom_right: ties = TieRule::top_right; break;
     }
-    return profile;  // unreachable: the enum is closed
+    return profile;
 }
 
 const DeviceProfile* find_profile(std::string_view name) {

@@ -141,9 +141,9 @@ struct DeviceProfile {
             case DepthFormat::d24: return has_d24;
             case DepthFormat::d32f: return has_d32f;
             case DepthFormat::d16f: return has_d16f;
-            case DepthFormat::d24f: return has_d24f;
+            case DepthFormat::d24f: break;
         }
-        return false;  // unreachable: the enum is closed
+        return has_d24f;
     }
 };
 

@@ -71,12 +71,12 @@ constexpr ProfileField choice(std::string_view key, const Sources& source) {
     return choice_of<member>(key, enum_names<Enum>, source);
 }
 
-struct Range {
+struct NumberRange {
     int lowest, highest, step = 1;
 };
 
 template <auto member>
-constexpr ProfileField integer(std::string_view key, Range range, const Sources& source) {
+constexpr ProfileField integer(std::string_view key, NumberRange range, const Sources& source) {
     ProfileField field = field_of<member>(key, FieldKind::integer, source);
     field.lowest = range.lowest;
     field.highest = range.highest;
@@ -364,9 +364,9 @@ std::string text_of(const ProfileField& field, const DeviceProfile& profile) {
     switch (field.kind) {
         case FieldKind::boolean: return value != 0 ? "true" : "false";
         case FieldKind::integer: return std::to_string(value);
-        case FieldKind::choice: return std::string{field.choices[static_cast<std::size_t>(value)]};
+        case FieldKind::choice: break;
     }
-    return {};  // unreachable: the enum is closed
+    return std::string{field.choices[static_cast<std::size_t>(value)]};
 }
 
 std::optional<FieldConflict> conflict_of(const DeviceProfile& profile) {

@@ -72,9 +72,9 @@ int code_bytes(ChannelType type) noexcept {
         case ChannelType::half: return 2;
         case ChannelType::single: return 4;
         case ChannelType::depth: return 4;
-        case ChannelType::stencil: return 1;
+        case ChannelType::stencil: break;
     }
-    return 4;  // unreachable: the enum is closed
+    return 1;
 }
 
 }  // namespace

@@ -65,9 +65,9 @@ struct FormatInfo {
         case Format::x8r8g8b8: return {"x8r8g8b8", ChannelType::unorm8, 4, 4};
         case Format::x1a7r8g8b8: return {"x1a7r8g8b8", ChannelType::unorm8, 4, 4};
         case Format::r5g6b5: return {"r5g6b5", ChannelType::unorm8, 4, 2};
-        case Format::x1r5g5b5: return {"x1r5g5b5", ChannelType::unorm8, 4, 2};
+        case Format::x1r5g5b5: break;
     }
-    return {"", ChannelType::single, 0, 0};  // unreachable: the enum is closed
+    return {"x1r5g5b5", ChannelType::unorm8, 4, 2};
 }
 
 [[nodiscard]] constexpr bool is_color(Format f) noexcept {

@@ -31,6 +31,12 @@ inline constexpr std::uint32_t sign = 0x8000, infinity = 0x7c00, largest = 0x7bf
                                largest_without_infinity = 0x7fff;
 }
 
+// The greatest half, at which sums stop under a rounding that never gives infinity; 0: sums become infinite.
+[[nodiscard]] constexpr std::uint16_t stopping_half(HalfRounding rounding) noexcept {
+    if (rounding == HalfRounding::nearest_even) return 0;
+    return rounding == HalfRounding::toward_zero ? half_bits::largest : half_bits::largest_without_infinity;
+}
+
 // Without branches and variable shifts, so that the compiler vectorizes a loop over it.
 [[nodiscard]] constexpr float half_to_float(std::uint16_t half) noexcept {
     const std::uint32_t sign = (std::uint32_t{half} & half_bits::sign) << 16;
@@ -107,9 +113,9 @@ template <HalfRounding rounding>
     switch (rounding) {
         case nearest_even: return to_half<nearest_even>(value);
         case toward_zero: return to_half<toward_zero>(value);
-        case no_infinity: return to_half<no_infinity>(value);
+        case no_infinity: break;
     }
-    return 0;  // unreachable: the enum is closed
+    return to_half<no_infinity>(value);
 }
 
 }  // namespace strict

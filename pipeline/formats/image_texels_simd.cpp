@@ -38,7 +38,7 @@ STRATA_EXPORT(widen);
 
 void widen_words(const std::uint32_t* words, std::size_t count, std::uint32_t* codes) noexcept {
     // A non-temporal store needs an aligned address. The bytes of a packed texel are in channel order only on
-    // little-endian machines.
+    // little-endian computers.
     const bool is_aligned = reinterpret_cast<std::uintptr_t>(codes) % 16 == 0;
     if (simd_is_scalar() || !is_aligned || std::endian::native != std::endian::little)
         return scalar::widen_words(words, count, codes);

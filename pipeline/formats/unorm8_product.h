@@ -30,9 +30,9 @@ template <UnormRounding rounding>
     switch (rounding) {
         case half_up: return code_value<half_up>(code);
         case product_even: return code_value<product_even>(code);
-        case product_even_wide: return code_value<product_even_wide>(code);
+        case product_even_wide: break;
     }
-    return 0.0f;  // unreachable: the enum is closed
+    return code_value<product_even_wide>(code);
 }
 
 }  // namespace strict

@@ -22,12 +22,12 @@ void for_each_list(const SortedLists& sorted, const Visit& visit) {
 }
 
 // Keys [low, high).
-struct Keys {
+struct KeyRange {
     std::uint64_t low, high;
 };
 
-Keys keys_at(const KeyIntervals& intervals, std::size_t pixel) {
-    Keys keys{intervals.least, intervals.end};
+KeyRange keys_at(const KeyIntervals& intervals, std::size_t pixel) {
+    KeyRange keys{intervals.least, intervals.end};
     if (intervals.near.exists()) keys.low = std::max(keys.low, intervals.near.first_behind(pixel));
     for (const BoundPlane& far : intervals.far)
         if (far.exists()) keys.high = std::min(keys.high, far.end_before(pixel));
@@ -63,7 +63,7 @@ class InOrder {
 
 void find_nearest(SortedLists& sorted, const KeyIntervals& intervals, const StoredCodes& stored, FragmentWaves& waves) {
     for_each_list(sorted, [&](std::size_t pixel, const List& list) {
-        const Keys keys = keys_at(intervals, pixel);
+        const KeyRange keys = keys_at(intervals, pixel);
         const std::uint32_t first = first_from(sorted, pixel, list, keys.low);
         if (first < list.size() && key_of(list[first]) < std::min<std::uint64_t>(keys.high, stored.of(pixel)))
             waves.add(0, pixel, list[first]);
@@ -96,7 +96,7 @@ void find_nearest_behind(SortedLists& sorted, const TileFragments& fragments, co
 bool find_intervals(SortedLists& sorted, const KeyIntervals& intervals, FragmentWaves& waves) {
     std::uint64_t inside = 0;
     for_each_list(sorted, [&](std::size_t pixel, const List& list) {
-        const Keys keys = keys_at(intervals, pixel);
+        const KeyRange keys = keys_at(intervals, pixel);
         const std::uint32_t first = first_from(sorted, pixel, list, keys.low);
         std::uint32_t& last = sorted.previous_range(pixel).last;
         last = keys.high > 0xffffffff ? list.size() : std::max(first, list.below(keys.high, first));
@@ -116,7 +116,7 @@ bool find_intervals(SortedLists& sorted, const KeyIntervals& intervals, Fragment
 // Entries [first, last) of a list: each end is searched from its position in the previous pass.
 SortedLists::ListRange range_of(SortedLists& sorted, const KeyIntervals& intervals, std::size_t pixel,
                                 const List& list) {
-    const Keys keys = keys_at(intervals, pixel);
+    const KeyRange keys = keys_at(intervals, pixel);
     const std::uint32_t first = first_from(sorted, pixel, list, keys.low);
     std::uint32_t& last = sorted.previous_range(pixel).last;
     last = std::max(first, list.below(keys.high, std::min(last, list.size())));

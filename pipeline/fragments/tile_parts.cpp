@@ -18,7 +18,7 @@ using rasterizer::Rect;
 namespace {
 
 // The number of fragments of a region and of its deepest pixel, or upper bounds of both.
-struct Depths {
+struct FragmentTotals {
     std::uint64_t all = 0, deepest = 0;
 };
 
@@ -26,22 +26,23 @@ struct Depths {
 constexpr std::uint64_t least_memory = std::uint64_t{512} << 10;
 
 // Entries of the sorted lists: each pixel of a block has as many as its longest list.
-std::uint64_t sorted_words(const Rect& rect, const Depths& of) {
+std::uint64_t sorted_words(const Rect& rect, const FragmentTotals& of) {
     const std::uint64_t blocks = (rect.area() + block_lanes - 1) / block_lanes;
     return block_lanes * std::min(of.all, blocks * of.deepest);
 }
 
-bool fits(const Replay& replay, const Rect& rect, const Depths& of) {
+bool fits(const Replay& replay, const Rect& rect, const FragmentTotals& of) {
     return of.all * replay.bytes_per_fragment + sorted_words(rect, of) * sizeof(std::uint64_t) <= replay.bytes;
 }
 
 // A triangle has at most one fragment per pixel of its box. The boxes are rarely needed: most tiles would fit if every
 // pixel had as many fragments as there are triangles.
-Depths bounds_of(const Geometry& geometry, std::size_t tile, const Replay& replay) {
+FragmentTotals bounds_of(const Geometry& geometry, std::size_t tile, const Replay& replay) {
     const Rect rect = tile_rect(geometry, tile), viewport = geometry.state.viewport;
     const std::uint64_t triangles = geometry.bin(tile).size();
-    if (const Depths everywhere{triangles * rect.area(), triangles}; fits(replay, rect, everywhere)) return everywhere;
-    Depths most{0, triangles};
+    if (const FragmentTotals everywhere{triangles * rect.area(), triangles}; fits(replay, rect, everywhere))
+        return everywhere;
+    FragmentTotals most{0, triangles};
     for (const std::uint32_t number : geometry.bin(tile)) {
         const auto [x0, y0, x1, y1] = geometry.triangles[number].box;
         const Rect box{viewport.x0 + x0, viewport.y0 + y0, viewport.x0 + x1, viewport.y0 + y1};
@@ -73,9 +74,9 @@ class CutTile {
             return parts.push_back({part, tile_, Extent::tile});
         for (const Rect& half : halves(part)) cut(half, parts);
     }
-    [[nodiscard]] Depths depths_of(const Rect& part) const {
+    [[nodiscard]] FragmentTotals depths_of(const Rect& part) const {
         const auto width = static_cast<std::size_t>(rect_.width());
-        Depths found;
+        FragmentTotals found;
         for (int y = part.y0; y < part.y1; ++y)
             for (int x = part.x0; x < part.x1; ++x) {
                 const std::uint64_t own =

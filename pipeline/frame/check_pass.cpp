@@ -57,8 +57,8 @@ void check_targets(const PassState& state, const std::vector<TargetStorage>& tar
                 "a target is read and written at once (a feedback loop) without ordered_rmw");
 }
 
-void refuse_if(const DeviceProfile& profile, Verdict verdict) {
-    if (verdict) throw Refused{profile, *std::move(verdict)};
+void refuse_if(const DeviceProfile& profile, std::optional<Refusal> lacking) {
+    if (lacking) throw Refused{profile, *std::move(lacking)};
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "rasterizer/base/enum_values.h"
+
 namespace strata::pipeline {
 
 enum class Fault : std::uint8_t {
@@ -28,28 +30,7 @@ enum class Fault : std::uint8_t {
     emulator_extension,   // a feature that no real device had (STRATA_depth_units ...)
 };
 
-[[nodiscard]] constexpr std::string_view name(Fault fault) noexcept {
-    switch (fault) {
-        case Fault::stencil_saturated: return "stencil_saturated";
-        case Fault::half_saturated: return "half_saturated";
-        case Fault::early_end: return "early_end";
-        case Fault::endless: return "endless";
-        case Fault::truncated: return "truncated";
-        case Fault::merged_ties: return "merged_ties";
-        case Fault::depth_quantized: return "depth_quantized";
-        case Fault::non_finite_vertices: return "non_finite_vertices";
-        case Fault::count_limit: return "count_limit";
-        case Fault::equal_at_bound: return "equal_at_bound";
-        case Fault::buffer_overflow: return "buffer_overflow";
-        case Fault::as_published: return "as_published";
-        case Fault::out_of_order: return "out_of_order";
-        case Fault::ties_with_opaque: return "ties_with_opaque";
-        case Fault::non_finite_target: return "non_finite_target";
-        case Fault::unlike_depths: return "unlike_depths";
-        case Fault::emulator_extension: return "emulator_extension";
-    }
-    return "";  // unreachable: the enum is closed
-}
+[[nodiscard]] constexpr std::string_view name(Fault fault) noexcept { return enum_name(fault); }
 
 // `first` is the first affected pixel, row by row from the top left; (-1, -1) if the diagnostic has no pixel.
 struct Diagnostic {

@@ -24,9 +24,9 @@ constexpr std::int32_t one = combiner_one;
         case CombinerScale::by_one: return {bias, 0, 0};
         case CombinerScale::by_two: return {bias, 1, 0};
         case CombinerScale::by_four: return {bias, 2, 0};
-        case CombinerScale::by_half: return {bias, 0, 1};
+        case CombinerScale::by_half: break;
     }
-    return {};  // unreachable: the enum is closed
+    return {bias, 0, 1};
 }
 
 // True if the choice selects C D.

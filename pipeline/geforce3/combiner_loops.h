@@ -35,9 +35,9 @@ struct CombinerMap {
         case CombinerMapping::half_bias_normal: return {0, high, 1, -half};
         case CombinerMapping::half_bias_negate: return {0, high, -1, half};
         case CombinerMapping::signed_identity: return {low, high, 1, 0};
-        case CombinerMapping::signed_negate: return {low, high, -1, 0};
+        case CombinerMapping::signed_negate: break;
     }
-    return {};  // unreachable: the enum is closed
+    return {low, high, -1, 0};
 }
 
 // An input of a portion: the register's channel for each output channel, and the mapping.

@@ -21,7 +21,7 @@ using Coordinates = std::array<Lanes<float>, 4>;
 // One stage applied to one batch. Stages run in order, so the results of earlier stages are complete.
 struct StageRun {
     const ShaderStages& stages;
-    const ShaderMachine& machine;
+    const ShaderDevice& device;
     std::size_t number;
     const Coordinates& coordinate;  // s t r q
     std::size_t count;
@@ -39,13 +39,13 @@ void clear(ColorLanes& rgba, std::size_t count) noexcept {
 }
 
 // Every division of a stage follows the rule of perspective_rq and depth_replace.
-[[nodiscard]] rasterizer::DivideRule divide_rule(const ShaderMachine& machine) noexcept {
-    return machine.profile->raster.hypothesis.divide;
+[[nodiscard]] rasterizer::DivideRule divide_rule(const ShaderDevice& device) noexcept {
+    return device.profile->raster.hypothesis.divide;
 }
 
 void divide(const StageRun& run, std::size_t component, Lanes<float>& out) noexcept {
     for (std::size_t i = 0; i < run.count; ++i)
-        out[i] = rasterizer::divide(run.coordinate[component][i], run.coordinate[3][i], divide_rule(run.machine));
+        out[i] = rasterizer::divide(run.coordinate[component][i], run.coordinate[3][i], divide_rule(run.device));
 }
 
 // One division: signed codes reach at most 32767/32768 (pipeline/reference/texture-shader.md 4).
@@ -76,7 +76,7 @@ void look_up(const HiloTexture& texture, const DeviceProfile& profile, const Lan
 
 void look_up(const StageRun& run, const Lanes<float>& s, const Lanes<float>& t) {
     const BoundTexture& texture = run.stage().texture;
-    const DeviceProfile& profile = *run.machine.profile;
+    const DeviceProfile& profile = *run.device.profile;
     StageResult& own = run.own();
     if (texture.hilo != nullptr) return look_up(*texture.hilo, profile, s, t, own, run.count);
     if (texture.color != nullptr) {
@@ -84,7 +84,7 @@ void look_up(const StageRun& run, const Lanes<float>& s, const Lanes<float>& t) 
     } else {
         Lanes<float> r{};
         if (texture.reference == CompareReference::r_over_q) divide(run, 2, r);
-        shadow_compare(run.machine.texels[run.number], texture.compare, profile, {s, t, r}, own.rgba,
+        shadow_compare(run.device.texels[run.number], texture.compare, profile, {s, t, r}, own.rgba,
                        static_cast<int>(run.count));
     }
     for (std::size_t c = 0; c < 3; ++c) std::copy_n(own.rgba[c].begin(), run.count, own.xyz[c].begin());
@@ -105,7 +105,7 @@ void projective_lookup(const StageRun& run) {
 }
 
 void pass_through(const StageRun& run) {
-    const bool is_unorm8 = run.machine.profile->texture_filter == TextureFilterPrecision::unorm8;
+    const bool is_unorm8 = run.device.profile->texture_filter == TextureFilterPrecision::unorm8;
     for (std::size_t c = 0; c < 4; ++c)
         for (std::size_t i = 0; i < run.count; ++i) {
             const float x = run.coordinate[c][i] > 0.0f ? std::min(run.coordinate[c][i], 1.0f) : 0.0f;
@@ -146,7 +146,7 @@ class DepthRule {
     rasterizer::DepthConversion<double> to_code;
     bool clamps;
 
-    explicit DepthRule(const ShaderMachine& m) : to_code{conversion(m)}, clamps{m.depth_clamp} {}
+    explicit DepthRule(const ShaderDevice& m) : to_code{conversion(m)}, clamps{m.depth_clamp} {}
     // With depth clamp everything except NaN is accepted, and `code` clamps it.
     [[nodiscard]] bool accepts(float z) const noexcept {
         return rasterizer::is_in_depth_range(z, to_code.least, to_code.greatest) || (clamps && z == z);
@@ -154,7 +154,7 @@ class DepthRule {
     [[nodiscard]] std::uint32_t code(float z) const noexcept { return rasterizer::depth_code(double{z}, to_code); }
 
   private:
-    static rasterizer::DepthConversion<double> conversion(const ShaderMachine& m) noexcept {
+    static rasterizer::DepthConversion<double> conversion(const ShaderDevice& m) noexcept {
         const rasterizer::RasterRules& rules = m.profile->raster;
         const bool scaled = rules.window_z == rasterizer::WindowZ::buffer_units;
         const double units = scaled ? rasterizer::buffer_units(m.depth.format) : 1.0;
@@ -164,9 +164,9 @@ class DepthRule {
 
 // The quotient is that of perspective_rq and depth_replace in the rasterizer, bit for bit (texture-shader.md 7).
 void replace_depth(const StageRun& run) {
-    const DepthRule rule{run.machine};
+    const DepthRule rule{run.device};
     for (std::size_t i = 0; i < run.count; ++i) {
-        const float z = rasterizer::divide(run.before().dot[i], run.own().dot[i], divide_rule(run.machine));
+        const float z = rasterizer::divide(run.before().dot[i], run.own().dot[i], divide_rule(run.device));
         const bool accepted = rule.accepts(z);
         run.out.alive[i] &= mask(accepted);
         run.out.code[i] = accepted ? rule.code(z) : 0u;
@@ -192,12 +192,12 @@ void run_stage(const StageRun& run, ShaderOp op) {
 
 }  // namespace
 
-void run_texture_shader(const ShaderStages& stages, const ShaderOps& ops, const ShaderMachine& machine,
+void run_texture_shader(const ShaderStages& stages, const ShaderOps& ops, const ShaderDevice& device,
                         const FragmentBatch& in, ShaderResults& out) {
     const auto count = static_cast<std::size_t>(in.count);
     std::fill_n(out.alive.begin(), count, ~0u);
     for (std::size_t stage = 0; stage < stages.size(); ++stage)
-        run_stage({stages, machine, stage, in.unit[stage], count, out}, ops[stage]);
+        run_stage({stages, device, stage, in.unit[stage], count, out}, ops[stage]);
 }
 
 }  // namespace strata::pipeline

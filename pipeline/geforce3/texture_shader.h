@@ -100,7 +100,7 @@ using ShaderOps = std::array<ShaderOp, rasterizer::texture_units>;
 [[nodiscard]] rasterizer::UnitMask coordinates_of(const ShaderStages& stages, const ShaderOps& ops) noexcept;
 
 // The state that all fragments of a pass share.
-struct ShaderMachine {
+struct ShaderDevice {
     const DeviceProfile* profile = nullptr;
     // The buffer that receives a replaced depth; its format is used.
     rasterizer::DepthRequest depth;
@@ -128,7 +128,7 @@ struct ShaderResults {
 
 // Runs the stages on all fragments of a batch, including dead ones, whose results are unspecified. Throws NeedsFrame
 // (depth_texels.h).
-void run_texture_shader(const ShaderStages& stages, const ShaderOps& ops, const ShaderMachine& machine,
+void run_texture_shader(const ShaderStages& stages, const ShaderOps& ops, const ShaderDevice& device,
                         const rasterizer::FragmentBatch& in, ShaderResults& out);
 
 }  // namespace strata::pipeline

@@ -7,7 +7,7 @@
 #include <chrono>
 
 #include "pipeline/fragments/tile_parts.h"
-#include "pipeline/frame/verdict.h"
+#include "pipeline/frame/termination.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shortcuts.h"
@@ -157,7 +157,7 @@ class FrameRun {
         statistics.passes_before = passes_before_;
         Region region{frame_, areas_[r], statistics, instruments_, &scratch_};
         body_(region);
-        region.targets().report_non_finite(statistics.published);
+        region.targets().report_overflow(statistics.published);
         RegionShortcuts shortcuts{region};
         shortcuts.write_image(statistics.published, result_.color);
         RegionRun& kept = regions_[r];

@@ -11,17 +11,17 @@ namespace {
 // The state that the texture shader reads in addition to its stages: the depth range and clamp of the draw list, the
 // format of a replaced depth, and each unit's depth texture, either an image of the caller or a depth target of this
 // region.
-ShaderMachine machine_of(const Region& region, const ShaderStages& stages) {
+ShaderDevice machine_of(const Region& region, const ShaderStages& stages) {
     const rasterizer::RasterState& raster = region.frame().transparent->geometry.state;
-    ShaderMachine machine;
-    machine.profile = &region.profile();
-    machine.depth = region.frame().key_request();
-    machine.depth_near = raster.depth_near;
-    machine.depth_far = raster.depth_far;
-    machine.depth_clamp = raster.depth_clamp;
+    ShaderDevice device;
+    device.profile = &region.profile();
+    device.depth = region.frame().key_request();
+    device.depth_near = raster.depth_near;
+    device.depth_far = raster.depth_far;
+    device.depth_clamp = raster.depth_clamp;
     for (std::size_t u = 0; u < stages.size(); ++u) {
         const BoundTexture& texture = stages[u].texture;
-        DepthTexels& texels = machine.texels[u];
+        DepthTexels& texels = device.texels[u];
         if (texture.depth_image != nullptr) {
             texels = DepthTexels{*texture.depth_image};
             texels.bottom_up = texture.bottom_up;
@@ -30,7 +30,7 @@ ShaderMachine machine_of(const Region& region, const ShaderStages& stages) {
         }
         texels.is_eight_bit = texture.eight_bit_depth;
     }
-    return machine;
+    return device;
 }
 
 }  // namespace

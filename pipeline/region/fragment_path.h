@@ -36,7 +36,7 @@ class FragmentPathProgram {
   private:
     FragmentPath path_;
     ShaderOps ops_;
-    ShaderMachine machine_;
+    ShaderDevice machine_;
     CombinerUnit combiners_;
     std::unique_ptr<ShaderResults> results_;
 };

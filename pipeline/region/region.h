@@ -122,7 +122,7 @@ class Region {
     RegionShared shared_;
     Targets targets_;
     Stages stages_;
-    Source source_;
+    FragmentSource source_;
     Loop loop_;
 };
 

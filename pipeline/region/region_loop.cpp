@@ -3,7 +3,7 @@
 #include "pipeline/region/region_loop.h"
 
 #include "pipeline/frame/sample_group.h"
-#include "pipeline/frame/verdict.h"
+#include "pipeline/frame/termination.h"
 #include "pipeline/region/region_shared.h"
 #include "pipeline/region/region_targets.h"
 

@@ -25,13 +25,13 @@ static_assert(rasterizer::row_padding <= spare_words);
 
 }  // namespace
 
-bool Source::may_walk_rows(const PreparedDraw& list) const {
+bool FragmentSource::may_walk_rows(const PreparedDraw& list) const {
     return may_leave_batches(shared_) && row_walk_suits(list.geometry, shared_.frame.key_request(), shared_.rect());
 }
 
 // True if no stage is needed between the rasterizer and the tests of this pass. Depth rows support more cases than
 // other rows, which also require may_walk_rows.
-bool Source::draws_rows(const PassState& state, const PreparedDraw& list) {
+bool FragmentSource::draws_rows(const PassState& state, const PreparedDraw& list) {
     if (!may_leave_batches(shared_) || !depth_rows_suit(list.geometry, shared_.frame.key_request(), shared_.rect()))
         return false;
     const bool is_plain = !state.alpha.enabled && !state.stencil.enabled && state.depth_unit_count == 0 &&
@@ -44,12 +44,12 @@ bool Source::draws_rows(const PassState& state, const PreparedDraw& list) {
 
 // LESS with a write is the only depth pass that rows implement; every other uses batches
 // (pipeline/reference/execution.md 7).
-bool Source::depth_suits_rows(const PassState& state) {
+bool FragmentSource::depth_suits_rows(const PassState& state) {
     const bool is_nearest = state.depth == DepthTest{.enabled = true, .func = CompareFunc::less, .write = true};
     return is_nearest && targets_.is_one_sample(state.depth_target) && draws_rows(state, *shared_.frame.transparent);
 }
 
-rasterizer::DepthDrawn Source::draw_depth_rows(const PassState& state) {
+rasterizer::DepthDrawn FragmentSource::draw_depth_rows(const PassState& state) {
     const rasterizer::Geometry& geometry = shared_.frame.transparent->geometry;
     stages_.begin_pass(state, PassKind::geometry);
     const rasterizer::DepthDrawn rows =
@@ -61,7 +61,7 @@ rasterizer::DepthDrawn Source::draw_depth_rows(const PassState& state) {
 
 // Rows add to halves, rounded to nearest, and to binary32; colours must be exact planes without texture or shadow
 // (execution.md 7). Everything else runs the program.
-bool Source::sums_suit_rows(const PassState& state) {
+bool FragmentSource::sums_suit_rows(const PassState& state) {
     const auto is_sum = [&](std::size_t k, Format format) {
         return targets_.is_one_sample(state.color[k]) && targets_.at(state.color[k]).format() == format &&
                state.blend[k] == blend_mode::sum;
@@ -80,7 +80,7 @@ bool Source::sums_suit_rows(const PassState& state) {
            draws_rows(state, list) && list.needs.shadow == 0 && !needs_of_tile(list).texcoord;
 }
 
-rasterizer::DepthDrawn Source::draw_sum_rows(const PassState& state) {
+rasterizer::DepthDrawn FragmentSource::draw_sum_rows(const PassState& state) {
     const PreparedDraw& list = *shared_.frame.transparent;
     stages_.begin_pass(state, PassKind::geometry);
     // For triangles of few pixels, testing each fragment takes less time than bounding all triangles.

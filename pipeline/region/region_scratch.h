@@ -24,7 +24,7 @@ struct alignas(64) RegionScratch {
     FragmentBatch screen;               // for full-screen passes
     FragmentBatch recorded;             // read from the record
     ColorLanes texel;                   // colours of a texture or shadow; truncated source of narrow surfaces
-    ColorCodes codes, idle_codes;       // stored values passing through the blender
+    ColorCodes codes, extra_codes;      // stored values passing through the blender
     Lanes<std::uint32_t> alive;         // for one sample
     Lanes<std::uint32_t> depth_stored;  // of the pixel that store_pixel writes
     Lanes<std::uint32_t> depth_pass;

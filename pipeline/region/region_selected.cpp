@@ -62,7 +62,7 @@ bool bounds_suit(const PassState& state, DepthKey key) {
 }  // namespace
 
 // Requires that the tile's fragments fit into memory and can be sorted.
-bool Source::find_fragments(const PassState& state, const PreparedDraw& list) {
+bool FragmentSource::find_fragments(const PassState& state, const PreparedDraw& list) {
     const FragmentSelection& selection = state.selection;
     const bool is_plain_run =
         may_record(list) && !shared_.instruments.log_passes && shared_.frame.termination.rule != TerminationRule::ratio;
@@ -86,7 +86,7 @@ bool Source::find_fragments(const PassState& state, const PreparedDraw& list) {
 }
 
 // Selects the sorted lists for this pass. There are two, because alternating passes may use two parts of a list.
-bool Source::sort_for(const PassState& state) {
+bool FragmentSource::sort_for(const PassState& state) {
     SortRequest request{.key = shared_.frame.key,
                         .is_float = shared_.frame.key_request().format == DepthFormat::d32f,
                         .by_submission = state.selection.keeps == KeptFragments::submitted,
@@ -106,7 +106,7 @@ bool Source::sort_for(const PassState& state) {
                          request.by_submission ? targets_.codes_of(targets_.opaque_depth()) : nullptr);
 }
 
-KeyIntervals Source::intervals_of(const FragmentSelection& s) const {
+KeyIntervals FragmentSource::intervals_of(const FragmentSelection& s) const {
     const auto plane = [&](const KeyBound& bound) {
         if (!bound.exists()) return BoundPlane{};
         const TargetStorage& from = targets_.at(bound.target);
@@ -129,7 +129,7 @@ KeyIntervals Source::intervals_of(const FragmentSelection& s) const {
     return intervals;
 }
 
-bool Source::find_kept(const PassState& state) {
+bool FragmentSource::find_kept(const PassState& state) {
     const FragmentSelection& selection = state.selection;
     RegionScratch& s = shared_.scratch;
     const KeyIntervals intervals = intervals_of(selection);
@@ -159,7 +159,7 @@ bool Source::find_kept(const PassState& state) {
 }
 
 // True if sample s of every pixel with fragments waits for fragment first_submitted + s of its pixel.
-bool Source::waits_in_order(const PassState& state) const {
+bool FragmentSource::waits_in_order(const PassState& state) const {
     if (state.selection.far[0].target != targets_.opaque_depth()) return false;
     const SortedLists& sorted = shared_.scratch.sorted;
     for (int s = 0; s < stages_.samples(); ++s) {
@@ -172,7 +172,7 @@ bool Source::waits_in_order(const PassState& state) const {
     return true;
 }
 
-void Source::find_submitted(const PassState& state) {
+void FragmentSource::find_submitted(const PassState& state) {
     const SortedLists& sorted = shared_.scratch.sorted;
     const std::uint32_t first = state.selection.first_submitted,
                         end = first + static_cast<std::uint32_t>(stages_.samples());
@@ -183,7 +183,7 @@ void Source::find_submitted(const PassState& state) {
 
 // Fragments before the kept ones have counted the stencil down without passing any sample's test. Sample s then takes
 // kept fragment s, which fails the tests of the other samples.
-void Source::route_submitted(const PassState& state) {
+void FragmentSource::route_submitted(const PassState& state) {
     for (std::size_t s = 0; s < shared_.scratch.waves.waves(); ++s) {
         std::uint32_t* const stored = targets_.at(state.stencil_target).stencil_plane(static_cast<int>(s)).words;
         for (const std::uint32_t p : shared_.scratch.waves.wave(s).pixel) stored[p] = state.stencil.front.ref;
@@ -191,7 +191,7 @@ void Source::route_submitted(const PassState& state) {
 }
 
 // Sets the stencils of samples that waited in order to the values that all of a pixel's fragments leave.
-void Source::finish_submitted(const PassState& state) {
+void FragmentSource::finish_submitted(const PassState& state) {
     const SortedLists& sorted = shared_.scratch.sorted;
     for (int s = 0; s < stages_.samples(); ++s) {
         std::uint32_t* const stored = targets_.at(state.stencil_target).stencil_plane(s).words;
@@ -204,7 +204,7 @@ void Source::finish_submitted(const PassState& state) {
 
 // Computes the window positions of a batch's pixels from their indices. A tile has at most 2^14 pixels in rows of up to
 // 2^7, so the reciprocal's error, below 2^-21 per pixel, adds up to less than one pixel's share of a row.
-void Source::find_positions(FragmentBatch& batch) const {
+void FragmentSource::find_positions(FragmentBatch& batch) const {
     const auto width = static_cast<std::uint32_t>(shared_.rect().width()),
                x0 = static_cast<std::uint32_t>(shared_.rect().x0);
     const std::uint32_t reciprocal = ((1u << 21) + width - 1) / width,
@@ -217,7 +217,7 @@ void Source::find_positions(FragmentBatch& batch) const {
 }
 
 // Stored codes are the keys, so they need not be fetched.
-FragmentBatch* Source::next_visit(const PassState& state) {
+FragmentBatch* FragmentSource::next_visit(const PassState& state) {
     const FragmentWaves::Part part = shared_.scratch.waves.next();
     if (part.pixel.empty()) return nullptr;
     FragmentBatch& batch = shared_.scratch.recorded;
@@ -238,6 +238,6 @@ FragmentBatch* Source::next_visit(const PassState& state) {
     return &batch;
 }
 
-std::uint64_t Source::recorded() const noexcept { return shared_.scratch.fragments.size(); }
+std::uint64_t FragmentSource::recorded() const noexcept { return shared_.scratch.fragments.size(); }
 
 }  // namespace strata::pipeline

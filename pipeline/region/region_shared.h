@@ -39,7 +39,7 @@ struct RegionShared {
         return profile().raster.depth_limits == rasterizer::DepthLimits::wrap;
     }
     // True if an effect that changes nothing is to be simulated.
-    [[nodiscard]] bool idles(Effect effect, bool is_called_for) const noexcept {
+    [[nodiscard]] bool runs_extra(Effect effect, bool is_called_for) const noexcept {
         return instruments.once_more == effect || (frame.effects == Effects::all && !is_called_for);
     }
     // Null if the next step is not altered.

@@ -19,15 +19,15 @@ namespace strata::pipeline {
 
 using rasterizer::FragmentNeeds;
 
-Source::Source(const RegionShared& shared, Targets& targets, Stages& stages)
+FragmentSource::FragmentSource(const RegionShared& shared, Targets& targets, Stages& stages)
     : shared_{shared},
       targets_{targets},
       stages_{stages},
       rasterizer_{std::make_unique<rasterizer::TileRasterizer>(shared.rect())} {}
-Source::~Source() = default;
+FragmentSource::~FragmentSource() = default;
 
 // Computed per tile for the transparent and the opaque list, not for a second list.
-const MaterialNeeds& Source::needs_of_tile(const PreparedDraw& list) {
+const MaterialNeeds& FragmentSource::needs_of_tile(const PreparedDraw& list) {
     const bool is_transparent = &list == shared_.frame.transparent, is_opaque = &list == shared_.frame.opaque;
     if (shared_.is_frame() || list.needs == MaterialNeeds{} || !(is_transparent || is_opaque)) return list.needs;
     auto& needs = is_transparent ? transparent_needs_ : opaque_needs_;
@@ -36,15 +36,15 @@ const MaterialNeeds& Source::needs_of_tile(const PreparedDraw& list) {
 }
 
 // Indices of the triangles that may touch the region, in submission order.
-std::span<const std::uint32_t> Source::triangles_of(const PreparedDraw& list) const noexcept {
+std::span<const std::uint32_t> FragmentSource::triangles_of(const PreparedDraw& list) const noexcept {
     return shared_.is_frame() ? std::span<const std::uint32_t>{list.geometry.all_triangles}
                               : list.geometry.bin(shared_.area.tile);
 }
 
 // Without ranges all triangles are drawn. Triangles are in submission order, and the pieces of a clipped one have its
 // index, so a range of primitives is a contiguous range of triangles.
-void Source::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<const PrimitiveRange> primitives,
-                       rasterizer::BatchSink given) {
+void FragmentSource::rasterize(const PreparedDraw& list, FragmentNeeds needs,
+                               std::span<const PrimitiveRange> primitives, rasterizer::BatchSink given) {
     stages_.set_material(needs.color && needs_of_tile(list).texcoord, needs.color && list.needs.shadow != 0);
     const auto& geometry = list.geometry;
     const auto triangles = triangles_of(list);
@@ -70,7 +70,7 @@ void Source::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<
 
 // Codes outside the depth range are ordered differently from keys: if one occurs, the frame is drawn literally
 // (pipeline/reference/execution.md 5.4).
-void Source::require_range(const FragmentBatch& batch) const {
+void FragmentSource::require_range(const FragmentBatch& batch) const {
     const rasterizer::DepthFormat format = shared_.frame.key_request().format;
     const auto is_beyond = [&](std::uint32_t code) { return rasterizer::is_beyond_range(code, format); };
     if (!shared_.is_frame() && std::any_of(batch.code.begin(), batch.code.begin() + batch.count, is_beyond))
@@ -78,7 +78,7 @@ void Source::require_range(const FragmentBatch& batch) const {
 }
 
 // True if passes may read the record instead of rasterizing the list again.
-bool Source::may_record(const PreparedDraw& list) const {
+bool FragmentSource::may_record(const PreparedDraw& list) const {
     return !shared_.is_frame() && shared_.frame.effects == Effects::needed &&
            shared_.instruments.once_more == Effect::none && shared_.frame.replay.bytes > 0 &&
            &list == shared_.frame.repeated();
@@ -86,7 +86,7 @@ bool Source::may_record(const PreparedDraw& list) const {
 
 // Records the values that all passes read before the first of them. Returns false if they do not fit or cannot be
 // recorded.
-bool Source::record(const PreparedDraw& list, const FragmentNeeds& needs) {
+bool FragmentSource::record(const PreparedDraw& list, const FragmentNeeds& needs) {
     TileFragments& fragments = shared_.scratch.fragments;
     if (fragments.serves(needs)) return true;
     const FragmentNeeds kept = needs | shared_.frame.replay.needs;
@@ -119,7 +119,7 @@ bool Source::record(const PreparedDraw& list, const FragmentNeeds& needs) {
 }
 
 // Passes all recorded fragments to the sink, in submission order.
-void Source::visit_all(const FragmentNeeds& needs, rasterizer::BatchSink sink) {
+void FragmentSource::visit_all(const FragmentNeeds& needs, rasterizer::BatchSink sink) {
     const From before = std::exchange(from_, From::record);
     FragmentBatch& batch = shared_.scratch.recorded;
     TileFragments::Reading& reading = shared_.scratch.reading;
@@ -139,7 +139,7 @@ void Source::visit_all(const FragmentNeeds& needs, rasterizer::BatchSink sink) {
 }
 
 // Decides whether the test against a cleared opaque depth can be skipped in this tile.
-DepthOutcome Source::depth_outcome(const PassState& state, const PreparedDraw& list) const {
+DepthOutcome FragmentSource::depth_outcome(const PassState& state, const PreparedDraw& list) const {
     using rasterizer::DepthPath;
     const bool is_plain = state.depth.enabled && state.depth.func == CompareFunc::less && !state.depth.write &&
                           state.depth_target == targets_.opaque_depth() && !state.stencil.enabled &&
@@ -155,7 +155,7 @@ DepthOutcome Source::depth_outcome(const PassState& state, const PreparedDraw& l
 }
 
 // Called in passes over a list that may be recorded.
-void Source::note_rasterized(const PassState& state, const FragmentNeeds& needs) {
+void FragmentSource::note_rasterized(const PassState& state, const FragmentNeeds& needs) {
     PathTaken& taken = shared_.statistics.taken;
     taken.rasterizes = true;
     if (taken.why_rasterized != nullptr) return;
@@ -168,7 +168,7 @@ void Source::note_rasterized(const PassState& state, const FragmentNeeds& needs)
 }
 
 // A list that did not fit is rasterized in every pass.
-void Source::for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink) {
+void FragmentSource::for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink) {
     const DepthOutcome depth = depth_outcome(state, list);
     stages_.set_depth(depth);
     const MaterialNeeds& materials = needs_of_tile(list);
@@ -190,7 +190,7 @@ void Source::for_each_batch(const PreparedDraw& list, const PassState& state, ra
     }
 }
 
-bool Source::record_sorted(const FragmentNeeds& needs) {
+bool FragmentSource::record_sorted(const FragmentNeeds& needs) {
     const PreparedDraw& list = *shared_.frame.transparent;
     return may_record(list) && targets_.has_ordered_surface() && record(list, needs) && sort_for({});
 }

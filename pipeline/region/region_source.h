@@ -25,12 +25,12 @@ class Targets;
 struct RegionShared;
 struct KeyIntervals;
 
-class Source {
+class FragmentSource {
   public:
-    Source(const RegionShared& shared, Targets& targets, Stages& stages);
-    Source(const Source&) = delete;
-    Source& operator=(const Source&) = delete;
-    ~Source();
+    FragmentSource(const RegionShared& shared, Targets& targets, Stages& stages);
+    FragmentSource(const FragmentSource&) = delete;
+    FragmentSource& operator=(const FragmentSource&) = delete;
+    ~FragmentSource();
 
     // All fragments of a pass, from the record if possible.
     void for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink);

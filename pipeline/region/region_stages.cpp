@@ -47,7 +47,7 @@ const ColorLanes& blended_source(Format format, const ColorLanes& source, ColorL
     return cut;
 }
 // Blending ONE and ZERO, which leaves an UNORM8 source unchanged (execution.md 6.1), with the pass's write mask.
-Blend idle(const Blend& blending) {
+Blend neutral(const Blend& blending) {
     return {.enabled = true, .color = {}, .alpha = {}, .write_mask = blending.write_mask};
 }
 
@@ -275,7 +275,7 @@ void Stages::finish(const PassState& state, const FragmentBatch& batch, Outputs&
                    out.alive.data(), batch.count);
         shared_.count({.alpha_killed = before - alive_count(out, batch.count)});
     }
-    if (shared_.idles(Effect::alpha_test, state.alpha.enabled)) idle_alpha_test(state, batch, out);
+    if (shared_.runs_extra(Effect::alpha_test, state.alpha.enabled)) extra_alpha_test(state, batch, out);
     show(Stage::alpha_test, state, batch, out, out.alive);
     for (int sample = 0; sample < samples_; ++sample)
         if (state.sample_mask >> sample & 1u) finish_sample(state, batch, out, sample, drawn);
@@ -290,7 +290,7 @@ void Stages::finish_sample(const PassState& state, const FragmentBatch& batch, c
     std::copy_n(out.alive.begin(), batch.count, alive.begin());
     if (state.depth_unit_count > 0) test_depth_units(state, batch, sample, alive);
     show(Stage::depth_units, state, batch, out, alive, sample);
-    idle_tests(state, batch, alive);
+    extra_tests(state, batch, alive);
     const bool is_tested = state.depth.enabled || state.stencil.enabled;
     const std::uint64_t passed =
         is_tested ? test_depth_and_stencil(state, batch, sample, alive) : count_lanes(alive, batch.count);
@@ -342,21 +342,21 @@ void Stages::write_colors(const PassState& state, const FragmentBatch& batch, co
         if (kind_ == PassKind::geometry) count_color_bytes(blending, target, passed);
         if (cache_ != nullptr && cache_->holds(k)) {
             const auto& fetched = state.depth.enabled || state.stencil.enabled ? alive : every_lane;
-            if (shared_.idles(Effect::blending, true)) idle_blend(blending, batch, out.color[k], target, sample);
+            if (shared_.runs_extra(Effect::blending, true)) extra_blend(blending, batch, out.color[k], target, sample);
             cache_->blend(k, {batch, out.color[k], alive, fetched, sample});
             continue;
         }
-        const bool is_idle = shared_.idles(Effect::blending, blending.enabled);
+        const bool is_extra = shared_.runs_extra(Effect::blending, blending.enabled);
         const bool keeps_source =
-            is_idle && !blending.enabled && format.type == ChannelType::unorm8;  // ONE and ZERO have the same result
-        if (is_idle && !keeps_source) idle_blend(blending, batch, out.color[k], target, sample);
+            is_extra && !blending.enabled && format.type == ChannelType::unorm8;  // ONE and ZERO have the same result
+        if (is_extra && !keeps_source) extra_blend(blending, batch, out.color[k], target, sample);
         const bool adds_halves = shared_.frame.effects == Effects::needed && format.type == ChannelType::half &&
                                  shared_.profile().half_rounding == HalfRounding::nearest_even &&
                                  blending == blend_mode::sum;
         if (adds_halves && target.add(batch.pixel, alive, batch.count, sample, out.color[k],
                                       shared_.profile().denormals == DenormalRule::flush))
             continue;
-        const Blend used = keeps_source ? idle(blending) : blending;
+        const Blend used = keeps_source ? neutral(blending) : blending;
         if (used.enabled || blending.write_mask != 0xf || shared_.frame.effects == Effects::all)
             target.gather(batch.pixel, batch.count, sample, shared_.scratch.codes);
         const ColorLanes& source = blended_source(target.format(), out.color[k], shared_.scratch.texel, batch.count);

@@ -74,10 +74,10 @@ class Stages {
     std::uint64_t test_stencil(const PassState& state, const FragmentBatch& batch, int sample,
                                Lanes<std::uint32_t>& alive);
     void test_depth_units(const PassState& state, const FragmentBatch& batch, int sample, Lanes<std::uint32_t>& alive);
-    void idle_alpha_test(const PassState& state, const FragmentBatch& batch, Outputs& out);
-    void idle_tests(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive);
-    void idle_blend(const Blend& blending, const FragmentBatch& batch, const ColorLanes& color,
-                    const TargetStorage& target, int sample);
+    void extra_alpha_test(const PassState& state, const FragmentBatch& batch, Outputs& out);
+    void extra_tests(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive);
+    void extra_blend(const Blend& blending, const FragmentBatch& batch, const ColorLanes& color,
+                     const TargetStorage& target, int sample);
     void count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels);
     void report_saturation(const FragmentBatch& batch);
     void write_colors(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
@@ -86,7 +86,7 @@ class Stages {
 
     const RegionShared& shared_;
     Targets& targets_;
-    std::optional<TargetStorage> idle_stencil_;
+    std::optional<TargetStorage> extra_stencil_;
     std::unique_ptr<TileCache> cache_;         // for profiles with BlendStorage::cached_tiles
     DepthOutcome depth_ = DepthOutcome::open;  // for the current pass
     PassKind kind_ = PassKind::geometry;

@@ -52,12 +52,6 @@ bool holds_non_finite(Word word, ChannelType type) noexcept {
     return (word & half) == half || (word >> 16 & half) == half;
 }
 
-// The bits of the greatest half at which sums stop under a rounding without an infinity; 0: they become infinite.
-Word stopping_half(HalfRounding rounding) noexcept {
-    if (rounding == HalfRounding::nearest_even) return 0;
-    return rounding == HalfRounding::toward_zero ? half_bits::largest : half_bits::largest_without_infinity;
-}
-
 // True if one of the two halves in the word is the greatest, of either sign.
 bool holds_half(Word word, Word greatest) noexcept {
     constexpr Word magnitude = 0x7fffu;
@@ -272,7 +266,7 @@ void Targets::require_equal(const std::vector<TargetStorage>& others) const {
                             "pass state: what a pass promises differs from its program in what it leaves in a target");
 }
 
-void Targets::report_non_finite(Target published) const {
+void Targets::report_overflow(Target published) const {
     const HalfRounding rounding = shared_.frame.profile->half_rounding;
     const Word greatest = stopping_half(rounding);
     for (int id = 0; id < count(); ++id) {

@@ -59,7 +59,7 @@ class Targets {
     void read_row(Target target, int y, std::uint32_t* out) const;
     // Reports colour targets with infinity, NaN or, where halves have none, the greatest half, that were not cleared to
     // it: all if Frame::checks_targets is set, else the published one. The executor calls it after the body.
-    void report_non_finite(Target published) const;
+    void report_overflow(Target published) const;
     // Throws std::logic_error if a target has other codes than in `others`, the result of a selection.
     void require_equal(const std::vector<TargetStorage>& others) const;
 

@@ -25,9 +25,9 @@ void Stages::cover_sample(const PassState& state, const FragmentBatch& batch, Ou
         switch (rounding) {
             case ShareRounding::nearest: return samples >= least + 0.5f;
             case ShareRounding::up: return samples > least;
-            case ShareRounding::down: return samples >= least + 1;
+            case ShareRounding::down: break;
         }
-        return false;  // unreachable: the enum is closed
+        return samples >= least + 1;
     };
     const DeviceProfile& profile = shared_.profile();
     const bool is_masked = (coverage.mask >> raster.sample_number & 1u) == 0;

@@ -53,8 +53,8 @@ struct Surface::State {
 
 namespace {
 
-void require(Verdict verdict, const DeviceProfile& profile) {
-    if (verdict) throw Refused{profile, *std::move(verdict)};
+void require(std::optional<Refusal> lacking, const DeviceProfile& profile) {
+    if (lacking) throw Refused{profile, *std::move(lacking)};
 }
 
 // Sets up one draw: all triangles have one material, and the soup's positions are window positions.

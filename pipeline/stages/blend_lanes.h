@@ -19,7 +19,7 @@ using ColorLanes = std::array<Lanes<float>, 4>;
 using ColorCodes = std::array<Lanes<std::uint32_t>, 4>;
 
 // The arguments of one blend of a batch; counts and masks as in `blend`.
-struct Job {
+struct BlendJob {
     const Blend& state;
     int channels;
     const ColorLanes& src;
@@ -68,7 +68,7 @@ void load(const Lanes<T>& source, Lanes<float>& operand, std::size_t count, auto
 // Blends the loaded operands and passes the results to store(channel, lanes). Alpha is last, because the colours read
 // the stored alpha.
 template <class Arithmetic>
-void blend_channels(const Job& job, const std::array<float, 4>& constant, const ColorLanes& s, const ColorLanes& d,
+void blend_channels(const BlendJob& job, const std::array<float, 4>& constant, const ColorLanes& s, const ColorLanes& d,
                     auto store) noexcept {
     alignas(64) Lanes<float> out;
     for (int channel = 0; channel < 4; ++channel) {
@@ -83,7 +83,7 @@ void blend_channels(const Job& job, const std::array<float, 4>& constant, const 
 
 // 8-bit targets: codes are loaded as integers in binary32, blended, and stored again.
 template <BlendRounding rounding, UnormRounding to_code>
-void blend_unorm8(const Job& job) noexcept {
+void blend_unorm8(const BlendJob& job) noexcept {
     alignas(64) ColorLanes s, d;
     std::array<float, 4> constant{};
     for (int channel = 0; channel < 4; ++channel) {
@@ -106,7 +106,7 @@ void blend_unorm8(const Job& job) noexcept {
 
 // BlendRounding::unrounded_source: values in binary32, one rounding per operation, converted to a code at the end. No
 // operand is a NaN, or a denormal that could affect a code.
-inline void blend_unrounded(const Job& job, UnormRounding to_code) noexcept {
+inline void blend_unrounded(const BlendJob& job, UnormRounding to_code) noexcept {
     alignas(64) ColorLanes s, d;
     std::array<float, 4> constant{};
     for (int channel = 0; channel < 4; ++channel) {
@@ -124,7 +124,7 @@ inline void blend_unrounded(const Job& job, UnormRounding to_code) noexcept {
 }
 
 template <UnormRounding to_code>
-void blend_unorm8(const Job& job, BlendRounding rounding) noexcept {
+void blend_unorm8(const BlendJob& job, BlendRounding rounding) noexcept {
     switch (rounding) {
         case BlendRounding::nearest: return blend_unorm8<BlendRounding::nearest, to_code>(job);
         case BlendRounding::truncate: return blend_unorm8<BlendRounding::truncate, to_code>(job);
@@ -135,7 +135,7 @@ void blend_unorm8(const Job& job, BlendRounding rounding) noexcept {
 
 // Float targets: operands are widened and flushed once, each result is rounded to its format once.
 template <class Halves, DenormalRule denormals, MinMaxNan nan_rule>
-void blend_float(const Job& job, ChannelType type, HalfRounding rounding) noexcept {
+void blend_float(const BlendJob& job, ChannelType type, HalfRounding rounding) noexcept {
     const auto flush = [](float x) { return flushed<denormals>(x); };
     alignas(64) ColorLanes s, d;
     std::array<float, 4> constant{};
@@ -158,7 +158,7 @@ void blend_float(const Job& job, ChannelType type, HalfRounding rounding) noexce
 }
 
 template <class Halves>
-void blend_float(const Job& job, ChannelType type, const DeviceProfile& profile) noexcept {
+void blend_float(const BlendJob& job, ChannelType type, const DeviceProfile& profile) noexcept {
     using enum DenormalRule;
     using enum MinMaxNan;
     const auto by = [&]<DenormalRule denormals>() {
@@ -176,7 +176,7 @@ void blend_float(const Job& job, ChannelType type, const DeviceProfile& profile)
 template <class Halves = PlainHalves>
 void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels, const ColorLanes& src,
            ColorCodes& codes, std::size_t count) noexcept {
-    const Job job{state, channels, src, codes, count};
+    const BlendJob job{state, channels, src, codes, count};
     if (!state.enabled) {
         for (std::size_t c = 0; c < 4; ++c)
             if (job.writes(static_cast<int>(c)))

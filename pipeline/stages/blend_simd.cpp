@@ -13,7 +13,7 @@ namespace strata::pipeline::HWY_NAMESPACE {
 namespace {
 
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2 && !defined(HWY_DISABLE_F16C)  // has_halves of half-inl.h
-struct Halves {
+struct HalfWords {
     using Words = hn::ScalableTag<std::uint32_t>;
     using Floats = hn::RebindToFloat<Words>;
 
@@ -27,14 +27,14 @@ struct Halves {
     }
 };
 #else
-using Halves = scalar::PlainHalves;
+using HalfWords = scalar::PlainHalves;
 #endif
 
 // Processes whole vectors of up to 16 lanes; results past the count are scratch.
 [[gnu::flatten]] void blend_lanes(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels,
                                   const scalar::ColorLanes& src, scalar::ColorCodes& codes, int count) {
     const std::size_t whole_vectors = (static_cast<std::size_t>(count) + 15) & ~std::size_t{15};
-    scalar::blend<Halves>(state, type, profile, channels, src, codes, whole_vectors);
+    scalar::blend<HalfWords>(state, type, profile, channels, src, codes, whole_vectors);
 }
 
 }  // namespace

@@ -41,14 +41,14 @@ HWY_INLINE WordMask first_lanes(std::size_t count) {
 
 // The pixels of one vector of lanes, and whether they are contiguous (is_run) or within two consecutive vectors
 // (is_near).
-struct Group {
+struct LaneGroup {
     WordMask in_batch;
     WordVec pixel, behind_first;
     Word first;
     bool is_run, is_near;
 };
 
-HWY_INLINE Group group_at(const PixelLanes& at, std::size_t i) {
+HWY_INLINE LaneGroup group_at(const PixelLanes& at, std::size_t i) {
     const Words d;
     const WordMask in_batch = first_lanes(at.count - i);
     const WordVec pixel = hn::LoadU(d, at.pixel + i);
@@ -66,7 +66,7 @@ HWY_INLINE hn::Vec<hn::RebindToSigned<Words>> spare_index(Plane plane, WordMask 
 
 // The stored words of a group: one load if its pixels are contiguous, as in rows of large triangles; two if few pixels
 // are missing between them, as in a layer of a peel.
-HWY_INLINE WordVec load(Plane plane, const Group& group) {
+HWY_INLINE WordVec load(Plane plane, const LaneGroup& group) {
     const Words d;
     const Word* const words = plane.words + group.first;
     if (group.is_run) return hn::LoadU(d, words);
@@ -81,7 +81,7 @@ HWY_INLINE WordVec load(Plane plane, const Group& group) {
 }
 
 // Dead lanes keep their words. If all are dead, nothing is accessed.
-HWY_INLINE void store(Plane plane, const Group& group, WordMask written, WordVec words) {
+HWY_INLINE void store(Plane plane, const LaneGroup& group, WordMask written, WordVec words) {
     const Words d;
     if (hn::AllFalse(d, written)) return;
     if (group.is_run) return hn::BlendedStore(words, written, d, plane.words + group.first);
@@ -156,7 +156,7 @@ HWY_INLINE void scatter_word(Plane plane, const PixelLanes& at, const Word* aliv
     for (int k = 0; k < per_word<channels, bits>; ++k)
         if ((written >> k & 1u) == 0) kept |= low_bits<bits> << (k * bits);
     for (std::size_t i = 0; i < at.count; i += hn::Lanes(d)) {
-        const Group group = group_at(at, i);
+        const LaneGroup group = group_at(at, i);
         WordVec value = hn::LoadU(d, &codes[0][i]);
         for (int k = 1; k < per_word<channels, bits>; ++k)
             value = hn::Or(value, hn::ShiftLeftSame(hn::LoadU(d, &codes[k][i]), k * bits));
@@ -205,7 +205,7 @@ DepthResult test(bool writes, DepthFormat format, Plane plane, const PixelLanes&
     const Words d;
     DepthResult result;
     for (std::size_t i = 0; i < at.count; i += hn::Lanes(d)) {
-        const Group group = group_at(at, i);
+        const LaneGroup group = group_at(at, i);
         const WordVec code = hn::LoadU(d, codes + i);
         const WordMask arriving = hn::And(group.in_batch, is_set(alive + i));
         const WordMask passed = hn::And(arriving, passing<func>(format, code, load(plane, group)));
@@ -243,7 +243,7 @@ HWY_INLINE void add_to_word(Plane plane, const PixelLanes& at, const Word* alive
                             const rasterizer::Lanes<float>* source) {
     const Words d;
     for (std::size_t i = 0; i < at.count; i += hn::Lanes(d)) {
-        const Group group = group_at(at, i);
+        const LaneGroup group = group_at(at, i);
         const WordVec stored = load(plane, group);
         WordVec sum = sum_of_halves<flushes>(hn::LoadU(Floats{}, &source[0][i]), hn::And(stored, hn::Set(d, 0xffffu)));
         if constexpr (channels == 2) {

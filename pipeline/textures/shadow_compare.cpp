@@ -13,7 +13,7 @@ namespace {
 using rasterizer::Lanes;
 
 // A depth texture and the texels of each lane's lookup.
-struct Lookup {
+struct ShadowLookup {
     const DepthTexels& depth;
     TexelLanes s, t;
 
@@ -21,7 +21,7 @@ struct Lookup {
 };
 
 // passed(r, texel) is the comparison; its results are written to `result`.
-void compare_nearest(const Lookup& at, const Lanes<std::uint32_t>& r, float fail, Lanes<float>& result,
+void compare_nearest(const ShadowLookup& at, const Lanes<std::uint32_t>& r, float fail, Lanes<float>& result,
                      std::size_t count, auto passed) {
     for (std::size_t i = 0; i < count; ++i)
         result[i] = passed(r[i], at.texel(at.s.first[i], at.t.first[i])) ? 1.0f : fail;
@@ -29,7 +29,7 @@ void compare_nearest(const Lookup& at, const Lanes<std::uint32_t>& r, float fail
 
 // The results are filtered, not the depths: each texel gives 1 or the fail value first (pipeline/reference/texturing.md
 // 4.2).
-void compare_linear(const Lookup& at, const Lanes<std::uint32_t>& r, float fail, Lanes<float>& result,
+void compare_linear(const ShadowLookup& at, const Lanes<std::uint32_t>& r, float fail, Lanes<float>& result,
                     std::size_t count, auto passed) {
     for (std::size_t i = 0; i < count; ++i) {
         const auto tap = [&](std::int32_t column, std::int32_t row) {
@@ -84,7 +84,7 @@ void shadow_compare(const DepthTexels& depth, const ShadowCompare& state, const 
     const TexelAxis s_axis{state.target, state.wrap_s, depth.width}, t_axis{state.target, state.wrap_t, depth.height};
     const bool is_float = has(depth, DepthFormat::d32f);
     const auto n = static_cast<std::size_t>(count);
-    Lookup lookup{depth, {}, {}};
+    ShadowLookup lookup{depth, {}, {}};
     Lanes<std::uint32_t> r;
     Lanes<float> result;
     quantize(depth, profile.raster, at.r, r, n);

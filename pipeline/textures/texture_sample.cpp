@@ -18,7 +18,7 @@ struct Footprint {
 };
 
 // A texture and the texels of each lane's lookup; nearest lookups use only `first`.
-struct Lookup {
+struct TextureLookup {
     const Texture& texture;
     TexelLanes s, t;
 
@@ -45,14 +45,14 @@ Decoder decoder(const Texture& texture) noexcept {
     return {color, color, color, unorm8_table.data()};
 }
 
-void sample_nearest(const Lookup& lookup, const Decoder& decode, ColorLanes& rgba, std::size_t count) noexcept {
+void sample_nearest(const TextureLookup& lookup, const Decoder& decode, ColorLanes& rgba, std::size_t count) noexcept {
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint8_t* const texel = lookup.nearest(i);
         for (std::size_t c = 0; c < 4; ++c) rgba[c][i] = decode[c][texel[c]];
     }
 }
 
-void sample_bilinear(const Lookup& lookup, const Decoder& decode, ColorLanes& rgba, std::size_t count) noexcept {
+void sample_bilinear(const TextureLookup& lookup, const Decoder& decode, ColorLanes& rgba, std::size_t count) noexcept {
     for (std::size_t i = 0; i < count; ++i) {
         const Footprint f = lookup.footprint(i);
         const BilinearWeights w = lookup.weights(i);
@@ -63,7 +63,7 @@ void sample_bilinear(const Lookup& lookup, const Decoder& decode, ColorLanes& rg
 }
 
 // The exact sum of 8-bit texels, rounded once.
-void sample_bilinear_unorm8(const Lookup& lookup, ColorLanes& rgba, std::size_t count) noexcept {
+void sample_bilinear_unorm8(const TextureLookup& lookup, ColorLanes& rgba, std::size_t count) noexcept {
     for (std::size_t i = 0; i < count; ++i) {
         const Footprint f = lookup.footprint(i);
         const BilinearWeights w = lookup.weights(i);
@@ -92,7 +92,7 @@ void sample(const Texture& texture, TextureFilterPrecision precision, const Lane
     const TexelAxis t_axis{texture.target, texture.wrap_t, texture.height};
     const bool is_unorm8 = precision == unorm8;
     const auto n = static_cast<std::size_t>(count);
-    Lookup lookup{texture, {}, {}};
+    TextureLookup lookup{texture, {}, {}};
     if (texture.filter == TextureFilter::nearest) {
         nearest_texels(s_axis, point_snap(precision), s, lookup.s, count);
         nearest_texels(t_axis, point_snap(precision), t, lookup.t, count);

@@ -92,7 +92,7 @@ struct PrepareOptions {
     Ordering order{};
     // 8, 16, 32, 64 or 128 pixels; 0: the triangles are not binned.
     int tile_size = 32;
-    // 0: as many as the machine has; no result depends on it.
+    // 0: as many as the computer has; no result depends on it.
     int threads = 0;
     // Texture units that a pass reads.
     CoordinateUnits units{};

@@ -58,7 +58,7 @@ void check(const RasterState& state) {
     }
     its.listed("interpolation", state.interpolation);
     if (state.interpolation != Interpolation::sample && !state.sample)
-        its.fail(FieldName{"interpolation"}, "sample in a frame without a sample",
+        its.fail(FieldName{"interpolation"}, "sample, because the frame has no sample position",
                  static_cast<int>(state.interpolation));
     const SampleCoverage& coverage = state.sample_coverage;
     if (coverage.value && !(*coverage.value >= 0 && *coverage.value <= 1))

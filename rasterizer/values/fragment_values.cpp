@@ -1,3 +1,4 @@
+// rasterizer/values/fragment_values.cpp - selects the parts of a draw's values and runs them.
 #include "rasterizer/values/fragment_values.h"
 
 #include <algorithm>

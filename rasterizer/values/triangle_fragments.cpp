@@ -1,3 +1,4 @@
+// rasterizer/values/triangle_fragments.cpp - the weights of fragments, also of triangles with wide edges.
 #include "rasterizer/values/triangle_fragments.h"
 
 #include "rasterizer/values/lane_kernels.h"

@@ -1,3 +1,5 @@
+// rasterizer/walk/pixel_shading.cpp - evaluates fragments at a point of their pixel other than the sample: the triangle
+// is moved so that its sample lies there (pixel_shading.h).
 #include "rasterizer/walk/pixel_shading.h"
 
 #include <algorithm>

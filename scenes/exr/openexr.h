@@ -13,9 +13,9 @@ namespace strata::scenes::exr {
     switch (type) {
         case StoredType::half: return Imf::HALF;
         case StoredType::single: return Imf::FLOAT;
-        case StoredType::word: return Imf::UINT;
+        case StoredType::word: break;
     }
-    return Imf::NUM_PIXELTYPES;  // unreachable: the enum is closed
+    return Imf::UINT;
 }
 
 // A frame buffer over the rows of `window` in `bytes`, laid out pixel by pixel as PartSource::rows.

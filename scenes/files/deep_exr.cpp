@@ -58,9 +58,9 @@ void append(const Words& words, DeepFragments& fragments) {
 }
 
 // Provides the fragments row by row, from the top.
-class DeepRows {
+class FragmentRows {
   public:
-    explicit DeepRows(const DeepFragments& fragments) : fragments_{fragments} {}
+    explicit FragmentRows(const DeepFragments& fragments) : fragments_{fragments} {}
 
     [[nodiscard]] const std::byte* encode(int first, int last) {
         const auto width = static_cast<std::size_t>(fragments_.width);
@@ -116,7 +116,7 @@ void write_deep(const std::string& path, std::span<const DeepFragments> samples,
         const DeepFragments& fragments = samples[sample];
         // The counts must add up to the length of the lists, or rows would exceed them.
         assert(std::accumulate(fragments.count.begin(), fragments.count.end(), std::size_t{0}) == fragments.z.size());
-        const auto rows = std::make_shared<DeepRows>(fragments);
+        const auto rows = std::make_shared<FragmentRows>(fragments);
         parts.push_back({.header = header_of(fragments, attributes),
                          .rows = [rows](int first, int last) { return rows->encode(first, last); },
                          .samples = fragments.count});

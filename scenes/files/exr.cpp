@@ -57,10 +57,10 @@ PartHeader header_of(const OutputColor& image) {
 using RowBytes = std::shared_ptr<std::vector<std::byte>>;
 
 // Rows of pixels as required by PartSource: interleaved channels, each in its own type.
-class Rows {
+class ExrRows {
   public:
     // The image must outlive the rows.
-    Rows(const OutputColor& image, const PartHeader& header, RowBytes bytes)
+    ExrRows(const OutputColor& image, const PartHeader& header, RowBytes bytes)
         : image_{image},
           type_{pipeline::info(image.color.format).type},
           pixel_bytes_{pixel_bytes(header)},
@@ -122,7 +122,7 @@ class Rows {
 PartSource source_of(const OutputColor& image, const RowBytes& bytes) {
     PartSource part;
     part.header = header_of(image);
-    part.rows = [rows = std::make_shared<Rows>(image, part.header, bytes)](int first, int last) {
+    part.rows = [rows = std::make_shared<ExrRows>(image, part.header, bytes)](int first, int last) {
         return rows->encode(first, last);
     };
     return part;

@@ -38,6 +38,6 @@ struct ImageHeader {
 [[nodiscard]] const char* reader_of(const std::string& path);
 // An image's stored channels and bits, for programs that compare codes; `path` is read whole. InputError if the reader
 // cannot read it.
-[[nodiscard]] StoredCodes read_codes(const std::string& path, const char* reader);
+[[nodiscard]] FileCodes read_codes(const std::string& path, const char* reader);
 
 }  // namespace strata::scenes

@@ -49,7 +49,7 @@ const char* reader_of(const std::string& path) {
     return nullptr;
 }
 
-StoredCodes read_codes(const std::string& path, const char* reader) {
+FileCodes read_codes(const std::string& path, const char* reader) {
     const std::string file = read_text_file(path, max_png_bytes);
     const Bytes bytes = std::as_bytes(std::span{file});
     const FileLocation location{path, ""};

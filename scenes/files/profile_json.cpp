@@ -138,18 +138,15 @@ std::optional<int> value_of(const ProfileField& field, const json& value) {
             if (found == field.choices.end()) return std::nullopt;
             return static_cast<int>(found - field.choices.begin());
         }
-        case FieldKind::integer: {
-            if (!value.is_number_unsigned()) return std::nullopt;  // no field is negative
-            const auto number = value.get<std::uint64_t>();
-            // Compared as 64 bits before the cast to int, because a number beyond int must not wrap into the range.
-            const auto lowest = static_cast<std::uint64_t>(field.lowest),
-                       highest = static_cast<std::uint64_t>(field.highest);
-            if (number < lowest || number > highest) return std::nullopt;
-            if ((number - lowest) % static_cast<std::uint64_t>(field.step) != 0) return std::nullopt;
-            return static_cast<int>(number);
-        }
+        case FieldKind::integer: break;
     }
-    return std::nullopt;  // unreachable: the enum is closed
+    if (!value.is_number_unsigned()) return std::nullopt;  // no field is negative
+    const auto number = value.get<std::uint64_t>();
+    // Compared as 64 bits before the cast to int, because a number beyond int must not wrap into the range.
+    const auto lowest = static_cast<std::uint64_t>(field.lowest), highest = static_cast<std::uint64_t>(field.highest);
+    if (number < lowest || number > highest) return std::nullopt;
+    if ((number - lowest) % static_cast<std::uint64_t>(field.step) != 0) return std::nullopt;
+    return static_cast<int>(number);
 }
 
 // Shows a value in an error message, with a suggestion if it resembles a choice.

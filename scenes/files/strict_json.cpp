@@ -16,9 +16,9 @@ using nlohmann::json;
 constexpr int most_levels = 64;
 
 // Tracks the keys of the objects that the parser is in.
-class Keys {
+class OpenObjects {
   public:
-    explicit Keys(const std::string& file) : file_{file} {}
+    explicit OpenObjects(const std::string& file) : file_{file} {}
 
     // Returning false would drop a value; all are kept.
     bool operator()(int depth, json::parse_event_t event, const json& parsed) {
@@ -56,7 +56,7 @@ class Keys {
 
 // The library's own message is not used: it names no file and differs between its versions.
 json parse_strict_json(const std::string& text, const std::string& file, const std::string& what) {
-    Keys keys{file};
+    OpenObjects keys{file};
     try {
         return json::parse(text, std::ref(keys));
     } catch (const json::parse_error& error) {

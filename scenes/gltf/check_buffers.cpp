@@ -29,14 +29,14 @@ void check_view(const JsonAt& view, const JsonAt& root, const std::vector<std::u
 }
 
 // The part of a bufferView that an accessor, or one half of its sparse part, reads: `count` elements of `size` bytes.
-struct Range {
+struct ElementRun {
     std::uint64_t count, size, component_size;
 };
 
 // glTF 2.0, 3.6.2.4: offsets are multiples of the component's size, in the view and in the buffer. The last element
 // needs no padding after it, hence stride * (count - 1) + size; count is at least 1, and all of it
 // fits 64 bits (see check.h).
-void check_range(const JsonAt& at, const JsonAt& root, const Range& range) {
+void check_range(const JsonAt& at, const JsonAt& root, const ElementRun& range) {
     const std::size_t view_index = at.member("bufferView").index(root.size("bufferViews"));
     const JsonAt view{root.json()["bufferViews"][view_index], root.location().under("bufferViews").under(view_index)};
     const std::uint64_t offset = byte_offset(at);
@@ -73,7 +73,7 @@ ElementType element_type(const JsonAt& at) {
 }
 
 // Sparse indices and values are packed, glTF 2.0, 3.6.2.3: a stride is not allowed.
-void check_sparse_half(const JsonAt& half, const JsonAt& root, const Range& range) {
+void check_sparse_half(const JsonAt& half, const JsonAt& root, const ElementRun& range) {
     const std::size_t view = half.member("bufferView").index(root.size("bufferViews"));
     if (root.json()["bufferViews"][view].contains("byteStride"))
         half.fail("BUFFER_VIEW_INVALID_BYTE_STRIDE", "a bufferView without byteStride");
@@ -81,7 +81,7 @@ void check_sparse_half(const JsonAt& half, const JsonAt& root, const Range& rang
 }
 
 // `base` is the accessor's own range; the values have its element type, the indices a type of their own.
-void check_sparse(const JsonAt& sparse, const JsonAt& root, const Range& base) {
+void check_sparse(const JsonAt& sparse, const JsonAt& root, const ElementRun& base) {
     const JsonAt count = sparse.member("count");
     const std::uint64_t changed = count.integer(1, max_bytes);
     if (changed > base.count)
@@ -97,8 +97,8 @@ void check_sparse(const JsonAt& sparse, const JsonAt& root, const Range& base) {
 void check_accessor(const JsonAt& accessor, const JsonAt& root) {
     const ComponentType component = component_type(accessor);
     const ElementType type = element_type(accessor);
-    const Range range{accessor.member("count").integer(1, max_bytes), element_bytes(type, component),
-                      component_bytes(component)};
+    const ElementRun range{accessor.member("count").integer(1, max_bytes), element_bytes(type, component),
+                           component_bytes(component)};
     const auto normalized = accessor.find("normalized");
     if (normalized && normalized->boolean() && (component == ComponentType::f32 || component == ComponentType::u32))
         normalized->fail("ACCESSOR_NORMALIZED_INVALID", "normalized integers of 8 or 16 bits");

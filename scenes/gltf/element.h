@@ -35,9 +35,9 @@ enum class ElementType : std::uint8_t { scalar, vec2, vec3, vec4, mat2, mat3, ma
         case ComponentType::i16:
         case ComponentType::u16: return 2;
         case ComponentType::u32:
-        case ComponentType::f32: return 4;
+        case ComponentType::f32: break;
     }
-    return 1;  // unreachable: the enum is closed
+    return 4;
 }
 
 // The size of an element in bytes, without padding at its end; each column of a matrix begins at a multiple of 4.
@@ -63,9 +63,9 @@ enum class ElementType : std::uint8_t { scalar, vec2, vec3, vec4, mat2, mat3, ma
         case ComponentType::i16: return is_normalized ? std::max(i16 / 32767.0f, -1.0f) : i16;
         case ComponentType::u16: return is_normalized ? unsigned_value / 65535.0f : unsigned_value;
         case ComponentType::u32: return unsigned_value;
-        case ComponentType::f32: return std::bit_cast<float>(bits);
+        case ComponentType::f32: break;
     }
-    return 0;  // unreachable: the enum is closed
+    return std::bit_cast<float>(bits);
 }
 
 }  // namespace strata::scenes

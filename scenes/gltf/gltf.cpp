@@ -177,14 +177,14 @@ class SceneBuilder {
 };
 
 // `file` names the source in errors, `name` is the scene's; without a folder only data: uris are allowed.
-struct Source {
+struct GltfInput {
     Bytes bytes;
     std::string file, name;
     std::optional<std::filesystem::path> folder;
 };
 
 // No buffer or image is read before check_document() has accepted the whole document.
-Scene load(const Source& source, const SceneOptions& options, const GltfLimits& limits) {
+Scene load(const GltfInput& source, const SceneOptions& options, const GltfLimits& limits) {
     const FloatEnvironment environment;
     const Container container = split_container(source.bytes, source.file);
     const Document document{source.file, parse_json(container.json, source.file), container.bin, source.folder,

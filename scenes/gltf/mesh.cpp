@@ -58,12 +58,12 @@ Indices corners(const Indices& order, int mode, const PrimitiveSource& s) {
 }
 
 // The vertices to read, and the corners as indices into them.
-struct Selection {
+struct UsedVertices {
     Indices vertices, indices;
 };
 
 // Vertices that triangles use, in the file's order and each once; the corners become indices into that list.
-Selection select_used(Indices corners) {
+UsedVertices select_used(Indices corners) {
     Indices used = corners;
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
@@ -73,7 +73,7 @@ Selection select_used(Indices corners) {
 }
 
 // Every corner becomes its own vertex, so that each triangle can have its flat normal.
-Selection select_unshared(Indices corners) {
+UsedVertices select_unshared(Indices corners) {
     Indices indices(corners.size());
     std::iota(indices.begin(), indices.end(), 0u);
     return {std::move(corners), std::move(indices)};
@@ -140,7 +140,7 @@ std::optional<pipeline::Mesh> load_primitive(const PrimitiveSource& s) {
     // glTF 2.0, 3.7.2.1: without normals a lit surface is flat. An unlit one needs none and keeps its shared
     // vertices.
     const bool is_flat = !s.material.is_unlit && !attributes.contains("NORMAL");
-    Selection selection = is_flat ? select_unshared(std::move(all)) : select_used(std::move(all));
+    UsedVertices selection = is_flat ? select_unshared(std::move(all)) : select_used(std::move(all));
     pipeline::Mesh mesh;
     mesh.indices = std::move(selection.indices);
     mesh.positions.reserve(selection.vertices.size());

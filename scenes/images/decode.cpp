@@ -91,7 +91,7 @@ namespace {
 
 // All codes as unsigned integers of their own width.
 template <class Word>
-void read_words(OIIO::ImageInput& reader, OIIO::TypeDesc type, const FileLocation& location, StoredCodes& to) {
+void read_words(OIIO::ImageInput& reader, OIIO::TypeDesc type, const FileLocation& location, FileCodes& to) {
     const OIIO::ImageSpec& spec = reader.spec();
     std::vector<Word> words(static_cast<std::size_t>(spec.width) * spec.height * spec.nchannels);
     if (!reader.read_image(0, 0, 0, spec.nchannels, type, words.data()))
@@ -100,7 +100,7 @@ void read_words(OIIO::ImageInput& reader, OIIO::TypeDesc type, const FileLocatio
 }
 
 // The fourth byte of a BMP's pixel is alpha in some files and 0 in others: if it is 0 everywhere, there is no alpha.
-void drop_empty_alpha(StoredCodes& stored) {
+void drop_empty_alpha(FileCodes& stored) {
     for (std::size_t i = 3; i < stored.codes.size(); i += 4)
         if (stored.codes[i] != 0) return;
     std::size_t to = 0;
@@ -112,11 +112,11 @@ void drop_empty_alpha(StoredCodes& stored) {
 
 }  // namespace
 
-StoredCodes decode_codes(const EncodedPicture& picture, const FileLocation& location) {
+FileCodes decode_codes(const EncodedPicture& picture, const FileLocation& location) {
     OIIO::Filesystem::IOMemReader memory(picture.bytes.data(), picture.bytes.size());
     const auto reader = open(memory, picture, location);
     const OIIO::ImageSpec& spec = reader->spec();
-    StoredCodes stored{.width = spec.width, .height = spec.height, .channels = spec.nchannels};
+    FileCodes stored{.width = spec.width, .height = spec.height, .channels = spec.nchannels};
     const std::string_view bytes{reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size()};
     if (auto scaled = scaled_pnm(bytes, spec.width, spec.height, spec.nchannels)) return *std::move(scaled);
     if (spec.format == OIIO::TypeDesc::UINT16) {

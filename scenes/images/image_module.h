@@ -31,7 +31,7 @@ inline constexpr std::uint64_t max_packing = 2048;
 
 // An image's channels as stored, 1 to 4: a palette is looked up, nothing else is changed. 1 and 2 channels are grey;
 // the last of 2 and of 4 is alpha. Codes have 8 or 16 bits; halves have 16 and floats 32 bits.
-struct StoredCodes {
+struct FileCodes {
     int width = 0, height = 0, channels = 0, bits = 8;
     bool is_float = false;
     std::vector<std::uint32_t> codes{};
@@ -42,7 +42,7 @@ struct ImageModule {
     // Returns width * height * 4 codes. InputError at `location` if the bytes do not decode to that size.
     std::vector<std::uint8_t> (*decode)(const EncodedPicture& picture, const FileLocation& location);
     // The same with channels and bits unchanged, for any format that the library reads.
-    StoredCodes (*decode_codes)(const EncodedPicture& picture, const FileLocation& location);
+    FileCodes (*decode_codes)(const EncodedPicture& picture, const FileLocation& location);
 };
 
 // The module's only exported symbol, and the type of the function behind it.

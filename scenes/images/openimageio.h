@@ -8,6 +8,6 @@
 namespace strata::scenes::images {
 
 [[nodiscard]] std::vector<std::uint8_t> decode(const EncodedPicture& picture, const FileLocation& location);
-[[nodiscard]] StoredCodes decode_codes(const EncodedPicture& picture, const FileLocation& location);
+[[nodiscard]] FileCodes decode_codes(const EncodedPicture& picture, const FileLocation& location);
 
 }  // namespace strata::scenes::images

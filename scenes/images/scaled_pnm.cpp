@@ -31,7 +31,7 @@ std::optional<std::uint32_t> take_word(std::string_view& text, std::size_t bytes
 
 }  // namespace
 
-std::optional<StoredCodes> scaled_pnm(std::string_view bytes, int width, int height, int channels) {
+std::optional<FileCodes> scaled_pnm(std::string_view bytes, int width, int height, int channels) {
     const bool is_text = bytes.starts_with("P2") || bytes.starts_with("P3");
     if (!is_text && !bytes.starts_with("P5") && !bytes.starts_with("P6")) return std::nullopt;
     std::string_view rest = bytes.substr(2);
@@ -40,7 +40,7 @@ std::optional<StoredCodes> scaled_pnm(std::string_view bytes, int width, int hei
     const std::uint32_t greatest = take_number(rest).value_or(0);
     if (greatest == 0 || greatest == 255 || greatest > 65535) return std::nullopt;
     if (!is_text && !rest.empty()) rest.remove_prefix(1);
-    StoredCodes stored{.width = width, .height = height, .channels = channels, .bits = greatest < 256 ? 8 : 16};
+    FileCodes stored{.width = width, .height = height, .channels = channels, .bits = greatest < 256 ? 8 : 16};
     const std::size_t count =
         static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels);
     const std::uint32_t most = greatest < 256 ? 255 : 65535;

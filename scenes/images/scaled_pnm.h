@@ -17,6 +17,6 @@ namespace strata::scenes::images {
 
 // For an image that OpenImageIO has accepted, with that many channels; empty for other kinds of PNM and if maxval is
 // 255.
-[[nodiscard]] std::optional<StoredCodes> scaled_pnm(std::string_view bytes, int width, int height, int channels);
+[[nodiscard]] std::optional<FileCodes> scaled_pnm(std::string_view bytes, int width, int height, int channels);
 
 }  // namespace strata::scenes::images

@@ -18,9 +18,9 @@ namespace strata::scenes::models {
 namespace {
 
 // A file in memory, which Assimp reads like one on disk.
-class Bytes : public Assimp::IOStream {
+class BytesStream : public Assimp::IOStream {
   public:
-    explicit Bytes(std::vector<std::byte> bytes) : bytes_{std::move(bytes)} {}
+    explicit BytesStream(std::vector<std::byte> bytes) : bytes_{std::move(bytes)} {}
     size_t Read(void* to, size_t size, size_t count) override {
         if (size == 0) return 0;
         const size_t items = std::min(count, (bytes_.size() - at_) / size);
@@ -57,7 +57,7 @@ class ModelFolderFiles : public Assimp::IOSystem {
         std::vector<std::byte> bytes = read_(name);
         if (bytes.empty()) return nullptr;
         has_library_ |= name != model_;
-        return new Bytes{std::move(bytes)};
+        return new BytesStream{std::move(bytes)};
     }
     void Close(Assimp::IOStream* stream) override { delete stream; }
 

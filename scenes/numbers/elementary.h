@@ -1,4 +1,4 @@
-// scenes/numbers/elementary.h - sin, cos, tan and pow with the same bits on every machine.
+// scenes/numbers/elementary.h - sin, cos, tan and pow with the same bits on every computer.
 //
 // Rule     Binary64 with a fixed order of + - * /; of the C library only floor is used, which is exact. The error is
 //          below 0.501 units in the last place. Angles up to 10^6 radians; beyond that, and for NaN, the result is NaN.

@@ -74,17 +74,17 @@ Scene hard_case(const std::string& spec, const SceneOptions& options) {
 }
 
 // The table of names and functions. A new scene is a line here and one in procedural_scenes().
-struct Maker {
+struct SceneMaker {
     std::string_view name;
     Scene (*make)(const std::string& spec, const SceneOptions& options);
 };
-constexpr Maker makers[] = {{"teapot", teapot},      {"volume-beam", volume_beam}, {"random", random_soup},
-                            {"planes", plane_stack}, {"shadow-demo", shadow_demo}, {"showroom", showroom},
-                            {"hard", hard_case}};
+constexpr SceneMaker makers[] = {{"teapot", teapot},      {"volume-beam", volume_beam}, {"random", random_soup},
+                                 {"planes", plane_stack}, {"shadow-demo", shadow_demo}, {"showroom", showroom},
+                                 {"hard", hard_case}};
 
 Keys names() {
     Keys result;
-    for (const Maker& maker : makers) result.push_back(maker.name);
+    for (const SceneMaker& maker : makers) result.push_back(maker.name);
     return result;
 }
 
@@ -123,12 +123,12 @@ const std::vector<ProceduralScene>& procedural_scenes() {
 }
 
 bool is_procedural(const std::string& spec) {
-    return std::ranges::find(makers, scene_name(spec), &Maker::name) != std::end(makers);
+    return std::ranges::find(makers, scene_name(spec), &SceneMaker::name) != std::end(makers);
 }
 
 Scene make_procedural(const std::string& spec, const SceneOptions& options) {
     const FloatEnvironment environment;
-    const auto maker = std::ranges::find(makers, scene_name(spec), &Maker::name);
+    const auto maker = std::ranges::find(makers, scene_name(spec), &SceneMaker::name);
     if (maker == std::end(makers)) {
         throw InputError(spec, "scene", fmt::format("one of {}", fmt::join(names(), ", ")),
                          quoted_with_suggestion(scene_name(spec), names()));

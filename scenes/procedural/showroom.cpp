@@ -25,7 +25,7 @@ pipeline::Vec3 seen(const Place& p) {
     return hard::point_at_window(frame, p.x, p.y, p.w);
 }
 
-enum class Facing : std::uint8_t { eye, away };
+enum class QuadFacing : std::uint8_t { eye, away };
 
 struct Look {
     Rgba front{1, 1, 1, 1}, back{1, 1, 1, 1};
@@ -34,9 +34,9 @@ struct Look {
     bool double_sided = true, is_lit = false;
 };
 
-class Builder {
+class RoomBuilder {
   public:
-    explicit Builder(const SceneOptions& options) : options_{options} {}
+    explicit RoomBuilder(const SceneOptions& options) : options_{options} {}
 
     // Adds a mesh with its own material and instance. Corners are counterclockwise in the window.
     Mesh& add(const char* name, const Look& look) {
@@ -56,22 +56,22 @@ class Builder {
 
     // A fan over `places`; `colors` has one per corner, one for all, or none.
     void polygon(Mesh& mesh, const std::vector<Place>& places, const std::vector<Rgba>& colors = {},
-                 Facing facing = Facing::eye) const {
+                 QuadFacing facing = QuadFacing::eye) const {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         for (std::size_t i = 0; i < places.size(); ++i) {
             mesh.positions.push_back(seen(places[i]));
             if (!colors.empty()) mesh.colors.push_back(encoded(colors[i % colors.size()]));
         }
         for (std::uint32_t i = 2; i < places.size(); ++i)
-            if (facing == Facing::eye)
+            if (facing == QuadFacing::eye)
                 mesh.indices.insert(mesh.indices.end(), {first, first + i - 1, first + i});
             else
                 mesh.indices.insert(mesh.indices.end(), {first, first + i, first + i - 1});
     }
 
     // A rectangle in the window whose left and right sides are at the distances `left` and `right`.
-    void pane(Mesh& mesh, const hard::Box& box, double left, double right, const std::vector<Rgba>& colors = {},
-              Facing facing = Facing::eye) const {
+    void pane(Mesh& mesh, const hard::CaseBox& box, double left, double right, const std::vector<Rgba>& colors = {},
+              QuadFacing facing = QuadFacing::eye) const {
         polygon(mesh,
                 {{box.left, box.top, left},
                  {box.left, box.bottom, left},
@@ -100,7 +100,7 @@ pipeline::Texture sign_texture(const SceneOptions& options) {
     return texture;
 }
 
-void add_opaque(Builder& b) {
+void add_opaque(RoomBuilder& b) {
     b.pane(b.add("wall", {.mode = AlphaMode::opaque, .double_sided = false}), {8, 8, 56, 56}, 12, 12,
            {{0.55f, 0.5f, 0.4f, 1}, {0.3f, 0.35f, 0.5f, 1}});
     b.pane(b.add("post", {.front = {0.2f, 0.25f, 0.2f, 1}, .mode = AlphaMode::opaque}), {28, 8, 32, 60}, 3, 5);
@@ -109,7 +109,7 @@ void add_opaque(Builder& b) {
     sign.texcoords = {{0, 0}, {0, 1.5f}, {1.5f, 1.5f}, {1.5f, 0}};
 }
 
-void add_panes(Builder& b) {
+void add_panes(RoomBuilder& b) {
     b.pane(b.add("perspective", {.front = {1, 1, 1, 0.8f}, .back = {1, 1, 1, 0.8f}}), {4, 30, 60, 50}, 2, 10,
            {{1, 0.1f, 0.1f, 0.3f}, {1, 1, 0.1f, 0.9f}, {0.1f, 0.2f, 1, 0.6f}, {0.1f, 1, 0.3f, 0.4f}});
     b.pane(b.add("hidden", {.front = {1, 0, 1, 0.5f}, .back = {1, 0, 1, 0.5f}}), {20, 40, 44, 60}, 14, 14);
@@ -119,9 +119,9 @@ void add_panes(Builder& b) {
     b.pane(lit, {10, 12, 26, 28}, 5, 5);
     lit.normals = {{0, 0, 1}, {0.6f, 0, 0.8f}, {0, 0.8f, 0.6f}, {1, 0, 0}};
     b.pane(b.add("facing away", {.front = {1, 1, 1, 0.5f}, .double_sided = false}), {14, 16, 30, 32}, 4.5, 4.5, {},
-           Facing::away);
+           QuadFacing::away);
     const Look two_colors{.front = {0.9f, 0.1f, 0.1f, 0.5f}, .back = {0.1f, 0.8f, 0.1f, 0.6f}};
-    b.pane(b.add("two colours away", two_colors), {40, 34, 60, 60}, 4, 4, {}, Facing::away);
+    b.pane(b.add("two colours away", two_colors), {40, 34, 60, 60}, 4, 4, {}, QuadFacing::away);
     b.pane(b.add("two colours", two_colors), {44, 44, 62, 62}, 3.5, 3.5);
     b.pane(b.add("solid", {.front = {0.7f, 0.3f, 0.6f, 1}, .back = {0.7f, 0.3f, 0.6f, 1}}), {54, 22, 62, 34}, 6.5, 6.5);
     Mesh& glass = b.add("stained glass", {.front = {1, 1, 1, 0.6f}, .back = {1, 1, 1, 0.6f}, .texture = 0});
@@ -130,7 +130,7 @@ void add_panes(Builder& b) {
 }
 
 // Planes that meet, nearly meet, or test the device's rules for depths and edges.
-void add_meetings(Builder& b) {
+void add_meetings(RoomBuilder& b) {
     const Look plain;
     Mesh& ties = b.add("ties", plain);
     for (const Rgba& color : {Rgba{1, 0, 0, 0.5f}, Rgba{0, 1, 0, 0.25f}, Rgba{0, 0, 1, 0.75f}})
@@ -159,7 +159,7 @@ void add_meetings(Builder& b) {
 }  // namespace
 
 Scene make_showroom(const SceneOptions& options) {
-    Builder builder{options};
+    RoomBuilder builder{options};
     add_opaque(builder);
     add_panes(builder);
     add_meetings(builder);

@@ -41,15 +41,13 @@ Answer answer(peeling::Renderer& renderer, const Asked& asked) try {
         case Call::render: return {.result = renderer.render(*asked.algorithm)};
         case Call::depth_pass: return {.result = renderer.depth_pass()};
         case Call::checked: return {.result = renderer.render(*asked.algorithm, {}, {.trust_idle = false})};
-        case Call::fragments: {
-            Answer found;
-            for (const auto& one : renderer.fragments(*asked.algorithm).all)
-                found.fragments.push_back({one.pixel, one.primitive, one.code, one.exact_code, bits(one.shader_z),
-                                           bits(one.color.r), bits(one.color.g), bits(one.color.b), bits(one.color.a)});
-            return found;
-        }
+        case Call::fragments: break;
     }
-    return {};  // unreachable: the enum is closed
+    Answer found;
+    for (const auto& one : renderer.fragments(*asked.algorithm).all)
+        found.fragments.push_back({one.pixel, one.primitive, one.code, one.exact_code, bits(one.shader_z),
+                                   bits(one.color.r), bits(one.color.g), bits(one.color.b), bits(one.color.a)});
+    return found;
 } catch (const InputError& error) {
     return {.refused = error.what()};
 } catch (const pipeline::Refused& error) {

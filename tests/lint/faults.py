@@ -10,6 +10,7 @@ import sys
 
 import specification
 import specification_covers
+import type_names
 import citations
 
 SOUND = {
@@ -104,11 +105,27 @@ def faults_of_specification(root):
             yield f"faults.py: nothing left to change for '{expected}': name other words of the page or source"
 
 
+# What type_names.py counts: types at namespace scope, also in unnamed namespaces, and no others.
+TYPES = """
+namespace a { struct Plain; struct Plain { int x; struct Inner { }; }; enum class Kind : std::uint8_t { one, two }; }
+namespace { template <class T> class Local final : public Base<T> { void f() { struct Hidden {}; } }; }
+struct Plain::Inner::Deep { }; template <> struct Plain<int> { }; // struct Comment { };
+const char* text = "struct Text {"; struct Named returned(struct Named given) { return given; }
+union Both { int i; float f; };
+"""
+
+
+def faults_of_types():
+    told = list(type_names.types_of(TYPES))
+    if told != ["Plain", "Kind", "Local", "Both"]:
+        yield f"type_names.py finds {told}"
+
+
 def main():
     if len(sys.argv) != 2:
         print(__doc__, file=sys.stderr)
         return 2
-    faults = [*faults_of_citations(), *faults_of_specification(sys.argv[1])]
+    faults = [*faults_of_citations(), *faults_of_specification(sys.argv[1]), *faults_of_types()]
     for fault in faults:
         print(fault)
     print(f"{len(CITATIONS) + len(SPECIFICATION) + len(SOURCES)} faults put in, {len(faults)} not found as they should be")

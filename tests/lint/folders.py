@@ -17,7 +17,7 @@ import specification
 LIBRARIES = {
     "rasterizer": ["base", "rules", "coverage", "set_up", "chip", "values", "walk"],
     "pipeline": ["formats", "device", "vertices", "stages", "textures", "geforce3", "frame", "fragments", "region"],
-    "peeling": ["programs", "loops", "algorithms", "audit", "", "truth"],
+    "peeling": ["programs", "loops", "algorithms", "audit", "", "frame", "truth"],
     "scenes": ["numbers", "", "gltf/document", "exr", "images", "files", "models", "packs", "procedural", "gltf"],
     "tools": ["port", "hardware_check", "oracle", "probe", "library", "python", "recipes", "strata", "lab", "bench", "web"],
 }

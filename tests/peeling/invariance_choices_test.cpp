@@ -28,8 +28,8 @@ DrawList walled_layers() {
     return draw_list(scene);
 }
 
-Experiment plain_experiment(const char* algorithm = "front_to_back", DepthFormat format = DepthFormat::d24) {
-    Experiment e;
+InvarianceCase plain_experiment(const char* algorithm = "front_to_back", DepthFormat format = DepthFormat::d24) {
+    InvarianceCase e;
     e.render.width = e.render.height = 8;
     e.render.threads = 1;
     e.render.depth = format;
@@ -37,7 +37,7 @@ Experiment plain_experiment(const char* algorithm = "front_to_back", DepthFormat
     return e;
 }
 
-Measurement measured(const Experiment& e, const char* profile = "ideal") {
+Measurement measured(const InvarianceCase& e, const char* profile = "ideal") {
     static const DrawList list = walled_layers();
     return measure(list, {}, *find_profile(profile), e);
 }
@@ -60,24 +60,24 @@ TEST_CASE("later passes that draw the same in another way give the same result w
     CHECK(plain.errors.layers_max == 4);
     CHECK(plain.picture == plain.truth);  // colours are products of halves, which only binary32 represents exactly
     const DrawList again = walled_layers();
-    Experiment second_list = plain_experiment();
+    InvarianceCase second_list = plain_experiment();
     second_list.render.second_list = &again;
     check_alike(measured(second_list), plain);
-    Experiment second_path = plain_experiment();
+    InvarianceCase second_path = plain_experiment();
     second_path.render.vertex_paths.second = VertexPath::fused;  // identity matrices, so nothing rounds
     check_alike(measured(second_path), plain);
-    Experiment second_clamp = plain_experiment();
+    InvarianceCase second_clamp = plain_experiment();
     second_clamp.render.second_depth_clamp = true;  // nothing crosses near or far
     check_alike(measured(second_clamp), plain);
 }
 
 TEST_CASE("an experiment has at most its number of passes and a moved one is compared and not peeled") {
-    Experiment short_one = plain_experiment();
+    InvarianceCase short_one = plain_experiment();
     short_one.max_passes = 2;
     const Measurement cut = measured(short_one);
     CHECK(cut.passes == 2);
     CHECK_FALSE(cut.ended);
-    Experiment moved = plain_experiment();
+    InvarianceCase moved = plain_experiment();
     moved.moved_window = {16, 8};
     const Measurement compared = measured(moved);
     CHECK_FALSE(compared.peeled);
@@ -88,18 +88,18 @@ TEST_CASE("an experiment has at most its number of passes and a moved one is com
 }
 
 TEST_CASE("a peel that compares its own codes rejects an experiment with another depth and returns no figure") {
-    Experiment e = plain_experiment("coherent_stencil");
+    InvarianceCase e = plain_experiment("coherent_stencil");
     e.compare = DepthPath::perspective_rq;
     const Measurement m = measured(e);
     REQUIRE(m.refusal);
-    CHECK(m.refusal->message(*find_profile("ideal")).find("the depth that coherent_stencil compares") !=
+    CHECK(m.refusal->message(*find_profile("ideal")).find("other compared depth in coherent_stencil") !=
           std::string::npos);
     CHECK(m.paths == PathComparison{});
 }
 
 TEST_CASE("a bias is advised only where it moves the stored depth alone") {
     for (const bool writes_quotient : {false, true}) {
-        Experiment e = plain_experiment();
+        InvarianceCase e = plain_experiment();
         e.write = writes_quotient ? DepthPath::perspective_rq : DepthPath::float32;
         e.compare = DepthPath::perspective_rq;
         const Measurement m = measured(e);

@@ -62,8 +62,8 @@ struct Case {
     DepthFormat format;
 };
 
-Experiment experiment(const Case& c) {
-    Experiment e;
+InvarianceCase experiment(const Case& c) {
+    InvarianceCase e;
     e.render.width = e.render.height = 24;
     e.render.threads = 1;
     e.render.depth = c.format;
@@ -73,7 +73,7 @@ Experiment experiment(const Case& c) {
     return e;
 }
 
-Measurement run(const Case& c, const Stack& stack, const Experiment& e) {
+Measurement run(const Case& c, const Stack& stack, const InvarianceCase& e) {
     const Measurement m = measure(list_of(stack), perspective(), *find_profile(c.profile), e);
     INFO((m.refusal ? m.refusal->message(*find_profile(c.profile)) : std::string()));
     REQUIRE_FALSE(m.refusal);
@@ -111,7 +111,7 @@ TEST_CASE("the machine peels without error at both ends of the adviser's epsilon
         for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f}) {
             Case c = with_ulps;
             c.format = format;
-            Experiment e = experiment(c);
+            InvarianceCase e = experiment(c);
             const SafeRange range = *run(c, {4, gap}, e).advice.epsilon_ulps;
             empty += range.is_empty() ? 1 : 0;
             for (const std::int64_t n : ends<std::int64_t>(
@@ -134,7 +134,7 @@ TEST_CASE("the same is true of absolute epsilons to the last bit of a double", "
         for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f}) {
             Case c = with_ulps;
             c.format = format;
-            Experiment e = experiment(c);
+            InvarianceCase e = experiment(c);
             const SafeAbsolute range = *run(c, {4, gap}, e).advice.epsilon;
             for (const double epsilon : ends<double>(
                      range.lowest, range.highest, [](double v) { return std::nextafter(v, -1.0); },
@@ -152,7 +152,7 @@ TEST_CASE("geforce3 peels without error at both ends of the adviser's biases and
     const Case c{"geforce3", "depth_units", DepthPath::window_z, DepthPath::perspective_rq, DepthFormat::d24};
     Verdicts verdicts;
     for (const float gap : {0.5f, 0x1p-14f}) {
-        Experiment e = experiment(c);
+        InvarianceCase e = experiment(c);
         const SafeRange range = *run(c, {4, gap}, e).advice.bias;
         for (const std::int64_t n : ends<std::int64_t>(
                  range.lowest, range.highest, [](std::int64_t v) { return v - 1; },
@@ -178,7 +178,7 @@ TEST_CASE("passes that see one depth find every layer once in N + 1 passes") {
 
 TEST_CASE("a compared depth that is not rounded like the stored one never ends") {
     Case c = with_ulps;
-    Experiment e = experiment(c);
+    InvarianceCase e = experiment(c);
     e.render.quantize_reference = false;
     const Measurement m = run(c, {6, 0.25f}, e);
     CHECK_FALSE(m.ended);
@@ -188,7 +188,7 @@ TEST_CASE("a compared depth that is not rounded like the stored one never ends")
 
 TEST_CASE("dual peeling loses the layers that its epsilon merges") {
     const Case c{"ideal", "dual", DepthPath::float32, DepthPath::float32, DepthFormat::d32f};
-    Experiment e = experiment(c);
+    InvarianceCase e = experiment(c);
     CHECK(is_right(run(c, {4, 0x1p-12f}, e)));
     e.render.compare_epsilon = {0.5, 0};
     CHECK(run(c, {4, 0x1p-12f}, e).errors.lost > 0);

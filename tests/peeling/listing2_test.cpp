@@ -150,10 +150,7 @@ void peel(Region& region) {
         region.targets().copy_rectangle(depth, region.frame().rect(), map, 0, 0);
         if (!region.any(drawn.passed, Idle::no)) break;
     }
-    const Target result = region.make_color();
-    region.copy(region.opaque_color(), result);
-    composite_quads(region, layers, result);
-    region.publish(result);
+    publish_quads(region, layers);
 }
 
 // What Listing 2's state stores, and the pixels where its stage 3 would read or compare something else.

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "peeling/frame/render_diagnostics.h"
 #include "peeling/registry.h"
-#include "peeling/render_diagnostics.h"
 #include "peeling/render_options.h"
 
 namespace {

@@ -191,7 +191,8 @@ TEST_CASE("layers of an algorithm that composites immediately are rejected") {
     RenderOptions options = options_for(one_fragment());
     options.keep_layers = true;
     CHECK(refusal_message({"geforce8", "weighted_average"}, options) ==
-          "profile geforce8 has no layers in weighted_average, which composites on the fly; use dual or front_to_back");
+          "profile geforce8 has no saved layers in weighted_average, which composites without saving layers; use dual "
+          "or front_to_back");
     CHECK(refusal_message({"geforce8", "dual"}, options).empty());
     CHECK(refusal_message({"geforce8", "front_to_back"}, options).empty());
     CHECK(refusal_message({"geforce3", "depth_units"}, options).empty());
@@ -294,10 +295,9 @@ TEST_CASE("a stored w is compared only with w and a stored depth never with w") 
                                                           {DepthPath::window_z, DepthPath::w_buffer},
                                                           {DepthPath::depth_replace, DepthPath::w_buffer}};
     for (const auto& [stored, compared] : unlike)
-        CHECK(
-            told(stored, compared) ==
-            "profile geforce3 has no comparison of w with a depth, of which one is stored and the other compared; use "
-            "w_buffer for both: --depth-path w_buffer --reference-path w_buffer");
+        CHECK(told(stored, compared) ==
+              "profile geforce3 has no comparison of w with a depth; use "
+              "w_buffer for both: --depth-path w_buffer --reference-path w_buffer");
     CHECK(told(DepthPath::w_buffer, DepthPath::w_buffer).empty());
     CHECK(told(DepthPath::window_z, DepthPath::perspective_rq).empty());
 }

@@ -4,10 +4,10 @@
 
 #include "peeling/audit/audit_result.h"
 #include "peeling/audit/region_trace.h"
-#include "peeling/check_options.h"
+#include "peeling/frame/check_options.h"
+#include "peeling/frame/prepared_lists.h"
+#include "peeling/frame/render_diagnostics.h"
 #include "peeling/memory_need.h"
-#include "peeling/prepared_lists.h"
-#include "peeling/render_diagnostics.h"
 #include "rasterizer/base/input_error.h"
 #include "tests/peeling/rendering.h"
 #include "tests/support/random_triangles.h"
@@ -82,14 +82,14 @@ TEST_CASE("the chip's own depths need one of its formats and a compared depth th
     float_depth.has_d32f = true;
     for (const DepthPath path : {DepthPath::window_z, DepthPath::w_buffer}) {
         const auto with = [&](DepthFormat format) {
-            const Verdict found = check_depth(float_depth, {path, format});
+            const std::optional<Refusal> found = check_depth(float_depth, {path, format});
             return found ? found->message(float_depth) : std::string{"had"};
         };
         CHECK(with(DepthFormat::d24) == "had");
         CHECK(with(DepthFormat::d32f).find(path == DepthPath::window_z ? "depth interpolator window_z" : "w buffer") !=
               std::string::npos);
     }
-    const Verdict lacking =
+    const std::optional<Refusal> lacking =
         check_depth(*find_profile("geforce8"), {DepthPath::float32, DepthFormat::d24, DepthPath::depth_replace});
     REQUIRE(lacking);
     CHECK(lacking->message(*find_profile("geforce8")).find("depth replace by texture shaders") != std::string::npos);
@@ -330,7 +330,7 @@ TEST_CASE("order errors and lost ties are attributed to the first cause that app
 TEST_CASE("a program that compares fixed-point depths is reported as quantizing if it does or compares its own codes") {
     const auto noted = [](const Algorithm& algorithm, DepthFormat format, bool quantizes) {
         std::vector<Diagnostic> all;
-        note_machine(algorithm, format, quantizes, all);
+        note_extensions(algorithm, format, quantizes, all);
         return std::ranges::any_of(all, [](const Diagnostic& d) { return d.fault == Fault::depth_quantized; });
     };
     Algorithm programmed;

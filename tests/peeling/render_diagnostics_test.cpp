@@ -1,5 +1,5 @@
 // Tests the diagnostics for given figures of an audit, and for given properties of a device.
-#include "peeling/render_diagnostics.h"
+#include "peeling/frame/render_diagnostics.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -22,7 +22,7 @@ std::vector<Diagnostic> audited(const char* algorithm, bool invariant) {
 
 bool says_quantized(const char* algorithm, DepthFormat format, bool quantizes) {
     std::vector<Diagnostic> all;
-    note_machine(*find_algorithm(algorithm), format, quantizes, all);
+    note_extensions(*find_algorithm(algorithm), format, quantizes, all);
     return std::ranges::any_of(all, [](const Diagnostic& d) { return d.fault == Fault::depth_quantized; });
 }
 

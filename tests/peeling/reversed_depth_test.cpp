@@ -254,8 +254,10 @@ TEST_CASE(
     CHECK(refusal_of([](RenderOptions&) {}).empty());
     CHECK_THAT(refusal_of([](RenderOptions& o) { o.depth = DepthFormat::d24; }), Contains("--depth-format d32f"));
     CHECK_THAT(refusal_of([](RenderOptions& o) { o.depth.reset(); }, "geforce3"), Contains("GREATER over fixed-point"));
-    CHECK_THAT(refusal_of([](RenderOptions& o) { o.quantize_reference = false; }), Contains("between codes"));
-    CHECK_THAT(refusal_of([](RenderOptions& o) { o.compare_epsilon.absolute = 1e-3; }), Contains("between codes"));
+    CHECK_THAT(refusal_of([](RenderOptions& o) { o.quantize_reference = false; }),
+               Contains("absolute compare epsilon"));
+    CHECK_THAT(refusal_of([](RenderOptions& o) { o.compare_epsilon.absolute = 1e-3; }),
+               Contains("absolute compare epsilon"));
     CHECK(refusal_of([](RenderOptions& o) { o.compare_epsilon.ulps = 2; }).empty());
     CHECK(refusal_of([](RenderOptions& o) { std::swap(o.raster.depth_near, o.raster.depth_far); }).empty());
 }

@@ -16,10 +16,10 @@ TEST_CASE("numbers of samples are rejected by name and --sample where it would h
     const auto wrong = GENERATE(values<Wrong>({
         {{"render", "teapot", "--samples", "3"}, "--samples: expected 1, 2, 4 or 8, found '3'"},
         {{"render", "teapot", "--samples", "8", "--profile", "geforce3"},
-         "dual: profile geforce3 has no pictures of 8 samples per pixel (ARB_multisample); use geforce8, "
+         "dual: profile geforce3 has no 8 samples per pixel (ARB_multisample); use geforce8, "
          "geforce8_dx101, ideal or direct3d11"},
         {{"render", "teapot", "--samples", "2", "--sample", "1", "--profile", "llvmpipe"},
-         "--samples: profile llvmpipe has no pictures of 2 samples per pixel (ARB_multisample); use geforce3, "
+         "--samples: profile llvmpipe has no 2 samples per pixel (ARB_multisample); use geforce3, "
          "geforce8, geforce8_dx101, ideal or direct3d11"},
         {{"render", "teapot", "--samples", "4", "--sample", "4"},
          "--sample: expected a number from 0 to 3 with --samples 4, found 4"},
@@ -33,7 +33,7 @@ TEST_CASE("numbers of samples are rejected by name and --sample where it would h
         {{"report", "teapot", "--samples", "2", "--load-sample", "resolved", "-o", "r"},
          "a report has no loads of resolved samples; use own or 0"},
         {{"report", "teapot", "--samples", "8", "--profile", "geforce3", "-o", "r"},
-         "--samples: profile geforce3 has no pictures of 8 samples per pixel (ARB_multisample)"},
+         "--samples: profile geforce3 has no 8 samples per pixel (ARB_multisample)"},
     }));
     const Folder folder;
     const CommandResult ended = run_strata(folder, wrong.words);

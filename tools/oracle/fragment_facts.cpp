@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "peeling/prepared_lists.h"
+#include "peeling/frame/prepared_lists.h"
 #include "peeling/raster_state.h"
 #include "pipeline/device/check.h"
 #include "pipeline/vertices/prepare.h"

@@ -118,7 +118,7 @@ Picture read_exr(const std::string& path) {
 }
 
 Picture read_by(const char* reader, const std::string& path) {
-    scenes::StoredCodes stored = scenes::read_codes(path, reader);
+    scenes::FileCodes stored = scenes::read_codes(path, reader);
     const Code halves_or_codes = stored.is_float ? Code::half : Code::unorm16;
     Target target{.name = "color",
                   .code = stored.bits == 8    ? Code::unorm8

@@ -60,7 +60,7 @@ pipeline::PassState pass_state(const Item& item, const Draw& draw) {
 }
 
 void check_item(const DeviceProfile& profile, const Item& item) {
-    const auto require = [&](pipeline::Verdict verdict) {
+    const auto require = [&](std::optional<pipeline::Refusal> verdict) {
         if (verdict) throw pipeline::Refused{profile, *std::move(verdict)};
     };
     require(pipeline::check_size(profile, item.width, item.height));

@@ -14,6 +14,7 @@
 #include "peeling/programs/fixed_passes/node_depths.h"
 #include "peeling/programs/fixed_passes/visibility_curve.h"
 #include "peeling/programs/region_programs.h"
+#include "peeling/programs/sums.h"
 
 namespace strata::peeling::listing::adaptive {
 
@@ -96,8 +97,7 @@ void run(Region& region, const ListingInputs& inputs) {
         region.set_name(t.through[e], "transmittances");
         region.clear(t.through[e], {.color = {1, 1, 1, 1}});
     }
-    const bool wide = region.frame().color_format == Format::rgba32f;
-    const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
+    const Target sums = make_sums(region);
     const Target result = region.make(region.frame().picture_format());
     region.set_name(sums, "sums");
     region.set_name(result, "result");

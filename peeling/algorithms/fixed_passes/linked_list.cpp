@@ -22,7 +22,7 @@ using namespace pipeline;
 
 namespace {
 
-struct Lists {
+struct NodeLists {
     Region& region;
     const AlgorithmOptions& options;
     std::vector<std::uint32_t> coverage;
@@ -46,7 +46,7 @@ std::uint64_t node_key(const KeyedFragment& fragment, std::uint32_t pixel) {
 
 // Finds the fragment that takes the last node of the frame, if --frame-nodes limits them. The region is then the whole
 // frame.
-void give_out_nodes(Lists& lists) {
+void give_out_nodes(NodeLists& lists) {
     if (lists.options.frame_nodes == 0) return;
     std::vector<std::uint64_t> keys;
     FragmentLists found;
@@ -74,8 +74,8 @@ void blend_over(Rgba& below, const Rgba& source) noexcept {
 
 // Composites one pixel: the fragments that have nodes, sorted by depth, or the nearest of all fragments
 // (Overflow::drop_far). With Overflow::blend the fragments without a node are first blended onto the background.
-void composite_pixel(Lists& lists, std::uint32_t pixel, std::span<const KeyedFragment> fragments, PixelSet& overflow,
-                     FragmentOrder& order) {
+void composite_pixel(NodeLists& lists, std::uint32_t pixel, std::span<const KeyedFragment> fragments,
+                     PixelSet& overflow, FragmentOrder& order) {
     std::size_t nodes = lists.most(fragments.size());
     while (nodes > 0 && node_key(fragments[nodes - 1], pixel) > lists.last_node) --nodes;
     const Overflow rule = lists.options.overflow;
@@ -97,7 +97,7 @@ void composite_pixel(Lists& lists, std::uint32_t pixel, std::span<const KeyedFra
 }
 
 // The last quad, which sorts and composites the lists on a device.
-void store(Region& region, const Lists& lists) {
+void store(Region& region, const NodeLists& lists) {
     const Target result = region.make(region.frame().picture_format());
     region.set_name(result, "result");
     PassState state;
@@ -116,7 +116,7 @@ void store(Region& region, const Lists& lists) {
 
 void run(Region& region, const ListingInputs& inputs) {
     region.begin_iteration();
-    Lists lists{region, inputs.options, coverage_of(region), std::vector<Rgba>(region.rect().area())};
+    NodeLists lists{region, inputs.options, coverage_of(region), std::vector<Rgba>(region.rect().area())};
     give_out_nodes(lists);
     const bool is_one_range = lists.range_from(0).size() == lists.coverage.size();
     if (!is_one_range) count_list_pass(region);

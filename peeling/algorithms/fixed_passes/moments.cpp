@@ -15,6 +15,7 @@
 #include "peeling/programs/fixed_passes/moment_bound.h"
 #include "peeling/programs/fixed_passes/moment_quantization.h"
 #include "peeling/programs/fixed_passes/weighted.h"
+#include "peeling/programs/sums.h"
 
 namespace strata::peeling::listing::moments {
 
@@ -31,13 +32,13 @@ constexpr std::array<double, 8> fixed_4{0, 0.375, 0, 0.375}, fixed_6{0, 0.48, 0,
     fixed_8{0, 0.75, 0, 0.67666666666666664, 0, 0.63, 0, 0.60030303030303034}, fixed_4_quantized{0, 0.628, 0, 0.628},
     fixed_6_quantized{0, 0.5566, 0, 0.489, 0, 0.47869382},
     fixed_8_quantized{0, 0.42474916387959866, 0, 0.22407802675585284, 0, 0.15369230769230768, 0, 0.12900440529089119};
-enum class Stored : std::uint8_t { sums, quantized };
+enum class MomentStorage : std::uint8_t { sums, quantized };
 struct Bias {
     const std::array<double, 8>& of;
     double share;
 };
-Bias bias_of(const AlgorithmOptions& options, Stored stored) {
-    const bool is_16 = stored == Stored::quantized;
+Bias bias_of(const AlgorithmOptions& options, MomentStorage stored) {
+    const bool is_16 = stored == MomentStorage::quantized;
     const auto by_count = [&](const auto& four, const auto& six, const auto& eight) -> const auto& {
         return options.moments == 4 ? four : options.moments == 6 ? six : eight;
     };
@@ -49,13 +50,13 @@ Bias bias_of(const AlgorithmOptions& options, Stored stored) {
 
 struct MomentTargets {
     int moments = 4;
-    Stored stored = Stored::sums;
+    MomentStorage stored = MomentStorage::sums;
     Target total{};
     std::array<Target, 2> powers{};  // A z, A z^2 ...: four in the first, the others in the second
     [[nodiscard]] std::size_t targets() const noexcept { return moments > 4 ? 2 : 1; }
 };
 
-MomentTargets make_targets(Region& region, int count, Stored stored) {
+MomentTargets make_targets(Region& region, int count, MomentStorage stored) {
     MomentTargets t{count, stored, region.make(Format::r32f), {region.make(Format::rgba32f)}};
     if (count > 4) t.powers[1] = region.make(count == 6 ? Format::rg32f : Format::rgba32f);
     region.set_name(t.total, "total");
@@ -127,10 +128,10 @@ Moments load_moments(const MomentTargets& t, const Loads& loads, std::size_t i) 
     const auto count = static_cast<std::size_t>(t.moments);
     MomentValues values{};
     for (std::size_t m = 0; m < count; ++m) values[m] = loads.color(static_cast<int>(1 + m / 4))[m % 4][i];
-    if (t.stored == Stored::quantized) values = restored(values, count);
+    if (t.stored == MomentStorage::quantized) values = restored(values, count);
     Moments b{1};
     for (std::size_t m = 0; m < count; ++m)
-        b[m + 1] = static_cast<double>(t.stored == Stored::sums ? values[m] / loads.color(0)[0][i] : values[m]);
+        b[m + 1] = static_cast<double>(t.stored == MomentStorage::sums ? values[m] / loads.color(0)[0][i] : values[m]);
     return b;
 }
 
@@ -182,15 +183,14 @@ void composite(Region& region, Target sums, Target total, Target result) {
     }));
 }
 
-void run_with(Region& region, const ListingInputs& inputs, Stored stored) {
+void run_with(Region& region, const ListingInputs& inputs, MomentStorage stored) {
     const MomentTargets t = make_targets(region, inputs.options.moments, stored);
-    const bool wide = region.frame().color_format == Format::rgba32f;
-    const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
+    const Target sums = make_sums(region);
     const Target result = region.make(region.frame().picture_format());
     region.set_name(sums, "sums");
     region.set_name(result, "result");
     region.begin_iteration();
-    if (stored == Stored::sums)
+    if (stored == MomentStorage::sums)
         add_moments(region, t);
     else
         add_quantized_moments(region, t);
@@ -199,8 +199,8 @@ void run_with(Region& region, const ListingInputs& inputs, Stored stored) {
     region.publish(result);
 }
 
-void run(Region& region, const ListingInputs& inputs) { run_with(region, inputs, Stored::sums); }
-void run_quantized(Region& region, const ListingInputs& inputs) { run_with(region, inputs, Stored::quantized); }
+void run(Region& region, const ListingInputs& inputs) { run_with(region, inputs, MomentStorage::sums); }
+void run_quantized(Region& region, const ListingInputs& inputs) { run_with(region, inputs, MomentStorage::quantized); }
 
 }  // namespace
 

@@ -16,6 +16,7 @@
 #include "peeling/programs/depth_range.h"
 #include "peeling/programs/fixed_passes/sample_mask.h"
 #include "peeling/programs/fixed_passes/weighted.h"
+#include "peeling/programs/sums.h"
 
 namespace strata::peeling::listing::stochastic {
 
@@ -98,9 +99,8 @@ void composite(Region& region, Target sums, Target through, Target result) {
 }
 
 void run(Region& region, const ListingInputs& inputs) {
-    const bool wide = region.frame().color_format == Format::rgba32f;
-    const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
-    const Target through = region.make(wide ? Format::r32f : Format::r16f);
+    const Target sums = make_sums(region);
+    const Target through = make_sum(region);
     const Target result = region.make(region.frame().picture_format());
     region.set_name(sums, "sums");
     region.set_name(through, "through");

@@ -10,7 +10,7 @@
 // tests/peeling/execution_test.cpp shows that the bits equal the pass's.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/average.h"
-#include "peeling/programs/overflow.h"
+#include "peeling/programs/sums.h"
 
 namespace strata::peeling::listing::weighted_average {
 
@@ -59,9 +59,8 @@ StuckPixels resolve(Region& region, const PassState& state) {
 }  // namespace
 
 void run(Region& region) {
-    const bool wide = region.frame().color_format == Format::rgba32f;
-    const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
-    const Format count_format = wide ? Format::r32f : region.frame().average_count;
+    const Target sums = make_sums(region);
+    const Format count_format = has_wide_sums(region) ? Format::r32f : region.frame().average_count;
     const Target count = region.make(count_format), result = region.make(region.frame().picture_format());
     region.set_name(sums, "sums");
     region.set_name(count, "count");

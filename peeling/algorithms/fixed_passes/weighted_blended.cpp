@@ -12,6 +12,7 @@
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/depth_range.h"
 #include "peeling/programs/fixed_passes/weighted.h"
+#include "peeling/programs/sums.h"
 
 namespace strata::peeling::listing::weighted_blended {
 
@@ -78,9 +79,8 @@ void resolve(Region& region, Form form, const PassState& state) {
 
 template <Form form>
 void run(Region& region, const ListingInputs& inputs) {
-    const bool wide = region.frame().color_format == Format::rgba32f;
-    const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
-    const Target other = region.make(wide ? Format::r32f : Format::r16f);
+    const Target sums = make_sums(region);
+    const Target other = make_sum(region);
     const Target result = region.make(region.frame().picture_format());
     region.set_name(sums, "sums");
     region.set_name(other, form == Form::apart ? "revealage" : "weights");

@@ -7,8 +7,8 @@
 // Invariant  sums.rgb = sum of c a, sums.a = sum of a, in submission order and in the target's precision.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/depth_range.h"
-#include "peeling/programs/overflow.h"
 #include "peeling/programs/programs.h"
+#include "peeling/programs/sums.h"
 #include "peeling/programs/under.h"
 
 namespace strata::peeling::listing::weighted_sum {

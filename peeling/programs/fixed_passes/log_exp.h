@@ -1,5 +1,5 @@
 // peeling/programs/fixed_passes/log_exp.h - logarithm and exponential of binary32 numbers without the C library, so
-// that the bits are the same on every machine. Used by the algorithm moments.
+// that the bits are the same on every computer. Used by the algorithm moments.
 //
 // Rule     Both are series in binary64, each operation rounded, truncated where the remainder is below 2^-62; the sum
 //          is rounded once to binary32. The result is within 0.5 + 2^-20 units in the last place of the real value.

@@ -4,6 +4,7 @@
 #include "peeling/programs/average.h"
 #include "peeling/programs/fixed_passes/weighted.h"
 #include "peeling/programs/region_programs.h"
+#include "peeling/programs/sums.h"
 
 namespace strata::peeling {
 
@@ -18,9 +19,8 @@ TailTargets::TailTargets(Region& region, Tail tail, const ListingInputs& inputs,
     region.set_name(color_, "tail");
     copy_color(region, behind_, color_);
     if (tail == Tail::none || tail == Tail::blend) return;
-    const bool wide = region.frame().color_format == Format::rgba32f;
-    sums_ = region.make(wide ? Format::rgba32f : Format::rgba16f);
-    other_ = region.make(wide ? Format::r32f : Format::r16f);
+    sums_ = make_sums(region);
+    other_ = make_sum(region);
     region.set_name(sums_, "tail_sums");
     region.set_name(other_, tail == Tail::average ? "tail_count" : "tail_revealage");
     region.clear(sums_, {});

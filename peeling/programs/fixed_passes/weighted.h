@@ -29,9 +29,9 @@ inline namespace strict {
         case Weight::eq8: return between(10.0f / ((1e-5f + cubed(z / 10.0f)) + squared(cubed(z / 200.0f))));
         case Weight::eq9: return between(0.03f / (1e-5f + squared(squared(z / 200.0f))));
         case Weight::eq10: return at_least(3000.0f * cubed(1.0f - z));
-        case Weight::constant: return 1.0f;
+        case Weight::constant: break;
     }
-    return 1.0f;  // unreachable: the enum is closed
+    return 1.0f;
 }
 
 // The distance from the eye of a window depth.

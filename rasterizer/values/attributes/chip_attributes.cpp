@@ -1,3 +1,4 @@
+// rasterizer/values/attributes/chip_attributes.cpp - decides per triangle between NV2A's kernels and the definitions.
 #include "rasterizer/values/attributes/chip_attributes.h"
 
 #include <utility>

@@ -1,3 +1,4 @@
+// rasterizer/values/attributes/plane_attributes.cpp - gathers the planes of a triangle's attributes for the kernel.
 #include "rasterizer/values/attributes/plane_attributes.h"
 
 #include "rasterizer/values/attributes/chip_attributes.h"

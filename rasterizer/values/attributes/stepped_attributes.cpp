@@ -1,3 +1,4 @@
+// rasterizer/values/attributes/stepped_attributes.cpp - gathers the stepped planes of a triangle's attributes.
 #include "rasterizer/values/attributes/stepped_attributes.h"
 
 #include <algorithm>

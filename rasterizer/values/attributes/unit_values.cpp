@@ -1,3 +1,4 @@
+// rasterizer/values/attributes/unit_values.cpp - gathers the planes of a triangle's texture units.
 #include "rasterizer/values/attributes/unit_values.h"
 
 #include <cassert>

@@ -1,3 +1,4 @@
+// rasterizer/values/depth/depth_scale.cpp - the units and limits of a draw's depths (depth_scale.h).
 #include "rasterizer/values/depth/depth_scale.h"
 
 #include <cassert>

@@ -1,3 +1,4 @@
+// rasterizer/values/depth/depth_steps.cpp - the steps of depth_steps.h in their order.
 #include "rasterizer/values/depth/depth_steps.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// rasterizer/values/depth/fast_depth.cpp - the loops of fast_depth.h, and which of them suits a draw.
 #include "rasterizer/values/depth/fast_depth.h"
 
 #include "rasterizer/values/depth/code_lanes.h"

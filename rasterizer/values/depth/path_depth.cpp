@@ -1,3 +1,4 @@
+// rasterizer/values/depth/path_depth.cpp - the functions of each depth path but NV2A's, and their selection.
 #include "rasterizer/values/depth/path_depth.h"
 
 #include <algorithm>

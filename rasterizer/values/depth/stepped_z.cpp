@@ -1,3 +1,4 @@
+// rasterizer/values/depth/stepped_z.cpp - shader_z by either kind of stepped plane (stepped_z.h).
 #include "rasterizer/values/depth/stepped_z.h"
 
 #include <array>

@@ -3,11 +3,11 @@
 
 namespace strata::scenes::hard {
 
-Box whole(const CaseScene& scene) noexcept {
+CaseBox whole(const CaseScene& scene) noexcept {
     return {0, 0, static_cast<double>(scene.width), static_cast<double>(scene.height)};
 }
 
-pipeline::Vec3 position(const CaseScene& scene, const Corner& corner) noexcept {
+pipeline::Vec3 position(const CaseScene& scene, const CaseCorner& corner) noexcept {
     return {static_cast<float>(2 * corner.x / scene.width - 1), static_cast<float>(1 - 2 * corner.y / scene.height),
             static_cast<float>(2 * corner.depth - 1)};
 }
@@ -20,7 +20,7 @@ void add(pipeline::Mesh& mesh, const std::array<pipeline::Vec3, 3>& positions, c
     }
 }
 
-void add(CaseScene& scene, const std::array<Corner, 3>& corners, const pipeline::Rgba& color) {
+void add(CaseScene& scene, const std::array<CaseCorner, 3>& corners, const pipeline::Rgba& color) {
     add(scene.transparent, {position(scene, corners[0]), position(scene, corners[1]), position(scene, corners[2])},
         color);
 }
@@ -30,7 +30,7 @@ namespace {
 // Top left, top right, bottom left, bottom right.
 using Quad = std::array<pipeline::Vec3, 4>;
 
-Quad quad_of(const CaseScene& scene, const Box& box, const Tilt& depth) noexcept {
+Quad quad_of(const CaseScene& scene, const CaseBox& box, const Tilt& depth) noexcept {
     const auto corner = [&](double x, double y) { return position(scene, {x, y, depth.at(x, y)}); };
     return {corner(box.left, box.top), corner(box.right, box.top), corner(box.left, box.bottom),
             corner(box.right, box.bottom)};
@@ -49,11 +49,11 @@ void add_corners(pipeline::Mesh& mesh, const Quad& q, const pipeline::Rgba& colo
 
 }  // namespace
 
-void add_quad(CaseScene& scene, const Box& box, const Tilt& depth, const pipeline::Rgba& color, Diagonal diagonal) {
+void add_quad(CaseScene& scene, const CaseBox& box, const Tilt& depth, const pipeline::Rgba& color, Diagonal diagonal) {
     add_corners(scene.transparent, quad_of(scene, box, depth), color, diagonal);
 }
 
-void add_opaque_quad(CaseScene& scene, const Box& box, const Tilt& depth, const pipeline::Rgba& color) {
+void add_opaque_quad(CaseScene& scene, const CaseBox& box, const Tilt& depth, const pipeline::Rgba& color) {
     add_corners(scene.opaque, quad_of(scene, box, depth), color, Diagonal::falling);
 }
 
@@ -89,7 +89,7 @@ void add_facing_quad(CaseScene& scene, double w, const pipeline::Rgba& color) {
 }
 
 pipeline::Rgba color_of(int number, float alpha) noexcept {
-    // Eighths: exact in every format except UNORM8, which rounds them the same way on every machine.
+    // Eighths: exact in every format except UNORM8, which rounds them the same way on every computer.
     const auto eighth = [](int n) { return static_cast<float>(n % 8 + 1) * 0.125f; };
     return {eighth(3 * number), eighth(5 * number + 2), eighth(7 * number + 5), alpha};
 }

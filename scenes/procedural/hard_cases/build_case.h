@@ -12,7 +12,7 @@
 namespace strata::scenes::hard {
 
 // A corner in the window: x and y in pixels from the left and the top, and window depth in 0 to 1.
-struct Corner {
+struct CaseCorner {
     double x = 0, y = 0, depth = 0.5;
 };
 
@@ -22,24 +22,24 @@ struct Tilt {
     [[nodiscard]] double at(double x, double y) const noexcept { return start + right * x + down * y; }
 };
 
-struct Box {
+struct CaseBox {
     double left = 0, top = 0, right = 0, bottom = 0;
 };
 
 // The diagonal along which a quad is split into triangles.
 enum class Diagonal : std::uint8_t { falling, rising };
 
-[[nodiscard]] Box whole(const CaseScene& scene) noexcept;
-[[nodiscard]] pipeline::Vec3 position(const CaseScene& scene, const Corner& corner) noexcept;
+[[nodiscard]] CaseBox whole(const CaseScene& scene) noexcept;
+[[nodiscard]] pipeline::Vec3 position(const CaseScene& scene, const CaseCorner& corner) noexcept;
 
 // Adds one triangle to the transparent mesh.
-void add(CaseScene& scene, const std::array<Corner, 3>& corners, const pipeline::Rgba& color);
+void add(CaseScene& scene, const std::array<CaseCorner, 3>& corners, const pipeline::Rgba& color);
 // Adds one triangle with the given positions.
 void add(pipeline::Mesh& mesh, const std::array<pipeline::Vec3, 3>& positions, const pipeline::Rgba& color);
 // Adds two triangles that cover the box.
-void add_quad(CaseScene& scene, const Box& box, const Tilt& depth, const pipeline::Rgba& color,
+void add_quad(CaseScene& scene, const CaseBox& box, const Tilt& depth, const pipeline::Rgba& color,
               Diagonal diagonal = Diagonal::falling);
-void add_opaque_quad(CaseScene& scene, const Box& box, const Tilt& depth, const pipeline::Rgba& color);
+void add_opaque_quad(CaseScene& scene, const CaseBox& box, const Tilt& depth, const pipeline::Rgba& color);
 
 // A view whose w is the distance from the eye, without far plane: window depth is 1 - near / w.
 [[nodiscard]] pipeline::View perspective_view(double near);

@@ -1,7 +1,7 @@
 // scenes/procedural/hard_cases/hard_case.h - small scenes on which rasterizers and peels fail, each with its exact
 // answer.
 //
-// Rule     A case is a draw list, a view and a frame. Its corners are the same binary32 numbers on every machine, and
+// Rule     A case is a draw list, a view and a frame. Its corners are the same binary32 numbers on every computer, and
 //          its answer is counted over exact geometry: positions are not snapped, planes are not rounded, and a pixel
 //          centre on an edge belongs to a triangle by the top-left rule.
 // Tests    tests/scenes/procedural/hard_cases_test.cpp: every answer by rational arithmetic

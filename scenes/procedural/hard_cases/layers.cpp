@@ -7,7 +7,7 @@ namespace {
 
 // `count` flat layers over a box, 1/4096 of depth apart, in an order that is neither sorted nor random: 1237 is prime,
 // so every layer occurs once.
-void add_stack(CaseScene& scene, const Box& box, int count, float alpha) {
+void add_stack(CaseScene& scene, const CaseBox& box, int count, float alpha) {
     for (int i = 0; i < count; ++i) {
         const int layer = static_cast<int>(std::int64_t{i} * 1237 % count);
         add_quad(scene, box, {(layer + 1) / 4096.0, 0, 0}, color_of(layer, alpha));
@@ -26,7 +26,7 @@ void add_pixel(CaseScene& scene, double x, double y, int count) {
     for (int i = 0; i < count; ++i) {
         const int layer = static_cast<int>(std::int64_t{i} * 1237 % count);
         const double depth = (layer + 1) / 4096.0;
-        add(scene, {Corner{x, y, depth}, {x, y + 1.5, depth}, {x + 1.5, y, depth}}, color_of(layer, 0.03125f));
+        add(scene, {CaseCorner{x, y, depth}, {x, y + 1.5, depth}, {x + 1.5, y, depth}}, color_of(layer, 0.03125f));
     }
 }
 

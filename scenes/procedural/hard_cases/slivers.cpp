@@ -18,19 +18,19 @@ void sliver_1_16(CaseScene& scene) {
 }
 
 void needle_16000(CaseScene& scene) {
-    add(scene, {Corner{-8000, 4.5, 0.5}, {8000, 4.5 + 1.0 / 256, 0.5}, {8000, 4.5, 0.5}}, color_of(1));
+    add(scene, {CaseCorner{-8000, 4.5, 0.5}, {8000, 4.5 + 1.0 / 256, 0.5}, {8000, 4.5, 0.5}}, color_of(1));
 }
 
 // A square of half side 1/4 round (x, y), as 32 triangles that meet in its middle.
 void add_fan(CaseScene& scene, double x, double y, int number) {
-    const auto rim = [&](int k) -> Corner {
+    const auto rim = [&](int k) -> CaseCorner {
         const int side = k / 8 % 4;
         const double along = (k % 8) / 16.0 - 0.25;
         const double dx = side == 0 ? along : side == 1 ? 0.25 : side == 2 ? -along : -0.25;
         const double dy = side == 0 ? -0.25 : side == 1 ? along : side == 2 ? 0.25 : -along;
         return {x + dx, y + dy, 0.5};
     };
-    for (int k = 0; k < 32; ++k) add(scene, {Corner{x, y, 0.5}, rim(k), rim(k + 1)}, color_of(number + k));
+    for (int k = 0; k < 32; ++k) add(scene, {CaseCorner{x, y, 0.5}, rim(k), rim(k + 1)}, color_of(number + k));
 }
 
 // The middle of each fan is at its pixel's centre or up to 1/8 pixel away.
@@ -42,14 +42,14 @@ void subpixel_fans(CaseScene& scene) {
 
 // The middle vertex of two triangles is on the long side of the third, which runs through centres.
 void t_junction(CaseScene& scene) {
-    const Corner top_left{0, 0}, top_right{32, 0}, bottom_left{0, 32}, bottom_right{32, 32}, middle{16, 16};
+    const CaseCorner top_left{0, 0}, top_right{32, 0}, bottom_left{0, 32}, bottom_right{32, 32}, middle{16, 16};
     add(scene, {top_left, bottom_left, bottom_right}, color_of(1));
     add(scene, {top_left, middle, top_right}, color_of(2));
     add(scene, {top_right, middle, bottom_right}, color_of(3));
 }
 
 void rotated_quad(CaseScene& scene) {
-    const Corner top{16.5, 2.5}, right{30.5, 16.5}, bottom{16.5, 30.5}, left{2.5, 16.5};
+    const CaseCorner top{16.5, 2.5}, right{30.5, 16.5}, bottom{16.5, 30.5}, left{2.5, 16.5};
     add(scene, {top, left, bottom}, color_of(1));
     add(scene, {top, bottom, right}, color_of(2));
 }
@@ -62,16 +62,16 @@ void corners_on_centres(CaseScene& scene) {
 }
 
 void zero_area(CaseScene& scene) {
-    add(scene, {Corner{0, 0}, {16, 16}, {32, 32}}, color_of(1));
-    add(scene, {Corner{8.5, 8.5}, {8.5, 8.5}, {8.5, 8.5}}, color_of(2));
-    add(scene, {Corner{8.5, 8.5}, {24.5, 8.5}, {8.5, 8.5}}, color_of(3));
+    add(scene, {CaseCorner{0, 0}, {16, 16}, {32, 32}}, color_of(1));
+    add(scene, {CaseCorner{8.5, 8.5}, {8.5, 8.5}, {8.5, 8.5}}, color_of(2));
+    add(scene, {CaseCorner{8.5, 8.5}, {24.5, 8.5}, {8.5, 8.5}}, color_of(3));
     add_quad(scene, {8, 8, 24, 24}, half_way, color_of(4));
-    add(scene, {Corner{0, 20.5}, {32, 20.5}, {16, 20.5}}, color_of(5));
+    add(scene, {CaseCorner{0, 20.5}, {32, 20.5}, {16, 20.5}}, color_of(5));
 }
 
 // 32 wedges round the middle of the frame, from the centre of pixel (16, 16) to beyond the border.
 void pinwheel(CaseScene& scene) {
-    const auto rim = [](int k) -> Corner {
+    const auto rim = [](int k) -> CaseCorner {
         const int side = k / 8 % 4;
         const double along = (k % 8) * 16.0 - 64;
         return {16.5 + (side == 0   ? along
@@ -84,7 +84,7 @@ void pinwheel(CaseScene& scene) {
                                     : -along),
                 0.5};
     };
-    for (int k = 0; k < 32; ++k) add(scene, {Corner{16.5, 16.5, 0.5}, rim(k), rim(k + 1)}, color_of(k));
+    for (int k = 0; k < 32; ++k) add(scene, {CaseCorner{16.5, 16.5, 0.5}, rim(k), rim(k + 1)}, color_of(k));
 }
 
 // 64 sheets of 128 x 64 cells, each cell 1/256 pixel wide and high, round the centre of the only pixel.

@@ -220,7 +220,7 @@ TEST_CASE("capturing all fragments of a frame is rejected in advance if they exc
     CHECK(fragments(std::uint64_t{18} << 20) == 270000);
     CHECK_THROWS_WITH(fragments(0),
                       "strata: --fragment-memory: expected at least 17280000 bytes for the frame's 270000 fragments "
-                      "all together, found 16777216");
+                      "in total, found 16777216");
 }
 
 TEST_CASE("what does not fit of samples that load one another is an error because no part can be run again alone") {

@@ -14,7 +14,7 @@ namespace {
 const DeviceProfile& device(std::string_view name) { return *find_profile(name); }
 
 // The message of a rejection, or "" if the device supports the state.
-std::string message(std::string_view name, const Verdict& verdict) {
+std::string message(std::string_view name, const std::optional<Refusal>& verdict) {
     return verdict ? verdict->message(device(name)) : std::string{};
 }
 

@@ -34,7 +34,7 @@ TEST_CASE("every format or fault or vertex path or feature has a unique name") {
         if (field.kind == FieldKind::boolean && field.key.starts_with("has_")) field.set(nothing, 0);
     std::set<std::string> words{""};
     for (const Feature feature : enum_values<Feature>) {
-        const Verdict refusal = check(nothing, feature);
+        const std::optional<Refusal> refusal = check(nothing, feature);
         REQUIRE(refusal);
         CHECK(words.insert(refusal->feature).second);
         CHECK(has(*find_profile("ideal"), feature) == !check(*find_profile("ideal"), feature));

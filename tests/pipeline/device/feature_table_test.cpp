@@ -78,10 +78,10 @@ TEST_CASE("each feature is accepted on its devices and rejected on others with i
             const DeviceProfile& profile = device_named(device_names[i]);
             const bool expected = row.owners.find(device_marks[i]) != std::string_view::npos;
             CHECK(has(profile, row.feature) == expected);
-            const Verdict verdict = check(profile, row.feature);
-            REQUIRE(verdict.has_value() != expected);
+            const std::optional<Refusal> refusal = check(profile, row.feature);
+            REQUIRE(refusal.has_value() != expected);
             if (expected) continue;
-            CHECK(*verdict == Refusal{std::string{row.words}, std::string{row.extension}, way_to(row.owners)});
+            CHECK(*refusal == Refusal{std::string{row.words}, std::string{row.extension}, way_to(row.owners)});
         }
 }
 
@@ -177,16 +177,16 @@ TEST_CASE("clearing a float depth to NaN or a value outside 0 to 1 requires uncl
 
 TEST_CASE("several targets are checked one by one and only those that blend must share their factors") {
     const DeviceProfile& p = device_named("geforce8");
-    const auto verdict = [&](std::vector<Blend> targets) { return check(p, std::span<const Blend>{targets}); };
+    const auto refusal = [&](std::vector<Blend> targets) { return check(p, std::span<const Blend>{targets}); };
     Blend off = blend_mode::under;
     off.enabled = false;
-    CHECK_FALSE(verdict({}));
-    CHECK_FALSE(verdict({off, blend_mode::max, off, blend_mode::max}));
-    CHECK(verdict({off, blend_mode::max, off, blend_mode::under})->extension == "ARB_draw_buffers_blend");
-    CHECK(verdict({blend_mode::max, both_terms(BlendEquation::signed_add)})->feature == "signed blend equations");
+    CHECK_FALSE(refusal({}));
+    CHECK_FALSE(refusal({off, blend_mode::max, off, blend_mode::max}));
+    CHECK(refusal({off, blend_mode::max, off, blend_mode::under})->extension == "ARB_draw_buffers_blend");
+    CHECK(refusal({blend_mode::max, both_terms(BlendEquation::signed_add)})->feature == "signed blend equations");
     Blend other_alpha = blend_mode::max;
     other_alpha.alpha = blend_mode::sum.alpha;
-    CHECK(verdict({blend_mode::max, other_alpha})->extension == "ARB_draw_buffers_blend");
+    CHECK(refusal({blend_mode::max, other_alpha})->extension == "ARB_draw_buffers_blend");
     CHECK_FALSE(
         check(device_named("geforce8_dx101"), std::span<const Blend>{std::vector{blend_mode::max, other_alpha}}));
 }

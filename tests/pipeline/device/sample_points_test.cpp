@@ -20,7 +20,7 @@ using namespace strata::pipeline;
 }
 
 [[nodiscard]] std::string refusal_of(const DeviceProfile& profile, int samples) {
-    const Verdict refusal = check_multisampling(profile, samples);
+    const std::optional<Refusal> refusal = check_multisampling(profile, samples);
     return refusal ? refusal->message(profile) : "";
 }
 [[nodiscard]] std::string refusal_of(std::string_view profile, int samples) {
@@ -72,13 +72,13 @@ TEST_CASE("numbers of samples that a device lacks are rejected by name") {
     CHECK(refusal_of("geforce3", 2).empty());
     CHECK(refusal_of("llvmpipe", 4).empty());
     CHECK(refusal_of("geforce3", 8) ==
-          "profile geforce3 has no pictures of 8 samples per pixel (ARB_multisample); use geforce8, geforce8_dx101, "
+          "profile geforce3 has no 8 samples per pixel (ARB_multisample); use geforce8, geforce8_dx101, "
           "ideal or direct3d11");
     CHECK(refusal_of("llvmpipe", 2) ==
-          "profile llvmpipe has no pictures of 2 samples per pixel (ARB_multisample); use geforce3, geforce8, "
+          "profile llvmpipe has no 2 samples per pixel (ARB_multisample); use geforce3, geforce8, "
           "geforce8_dx101, ideal or direct3d11");
-    CHECK(refusal_of("softpipe", 4).starts_with("profile softpipe has no pictures of 4 samples per pixel"));
+    CHECK(refusal_of("softpipe", 4).starts_with("profile softpipe has no 4 samples per pixel"));
     DeviceProfile own = *find_profile("softpipe");
     own.max_samples = 8, own.min_samples = 2;
-    CHECK(refusal_of(own, 4).starts_with("profile softpipe has no pictures of 4 samples per pixel"));
+    CHECK(refusal_of(own, 4).starts_with("profile softpipe has no 4 samples per pixel"));
 }

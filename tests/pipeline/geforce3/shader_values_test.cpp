@@ -20,7 +20,7 @@ using strata::rasterizer::FragmentBatch;
 struct ShaderRun {
     DeviceProfile profile;
     ShaderStages stages{};
-    ShaderMachine machine;
+    ShaderDevice machine;
     std::unique_ptr<FragmentBatch> batch = std::make_unique<FragmentBatch>();
     std::unique_ptr<ShaderResults> out = std::make_unique<ShaderResults>();
 

@@ -23,7 +23,7 @@ using Coordinate = std::array<float, 4>;
 // Runs four stages on one fragment after the other and holds the results.
 struct Bench {
     ShaderStages stages{};
-    ShaderMachine machine;
+    ShaderDevice machine;
     std::unique_ptr<FragmentBatch> batch = std::make_unique<FragmentBatch>();
     std::unique_ptr<ShaderResults> out = std::make_unique<ShaderResults>();
 

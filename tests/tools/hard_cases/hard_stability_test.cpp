@@ -45,7 +45,7 @@ RenderFunction device_look(const scenes::HardCase& hard, const char* profile, co
 // apart.
 void steep_strips(scenes::CaseScene& scene) {
     for (int i = 0; i < 4; ++i) {
-        const scenes::hard::Box box{31.4375, 16.0 * i, 31.5625, 16.0 * i + 16};
+        const scenes::hard::CaseBox box{31.4375, 16.0 * i, 31.5625, 16.0 * i + 16};
         scenes::hard::add_quad(scene, box, {0.5 - 4 * 31.5 + 0x1p-19, 4, 0}, scenes::hard::color_of(1));
         scenes::hard::add_quad(scene, box, {0.5 - 4 * 31.5, 4, 0}, scenes::hard::color_of(2));
     }

@@ -53,7 +53,7 @@ MovedRow MovedMachine::run(const DeviceProfile& profile, DepthFormat depth, cons
     MovedRow moved{.stability = moved_.stability(properties_of(profile, depth, algorithm, row), as_is),
                    .own = path_.flicker(as_is),
                    .paths = {}};
-    if (algorithm.name != "front_to_back") return moved;
+    if (!algorithm.shows_depth_paths) return moved;
     for (const auto& path : depth_paths()) {
         const RenderFunction depths = [&](const scenes::Scene& scene, const View& view) {
             peeling::RenderOptions options = hard_options(hard, depth);

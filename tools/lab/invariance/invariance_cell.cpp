@@ -17,8 +17,8 @@ namespace {
 
 // The experiment of a cell. `resources` has threads, tile size and memory; every setting that affects bits comes from
 // the cell.
-peeling::Experiment experiment_of(const Cell& cell, const peeling::RenderOptions& resources) {
-    peeling::Experiment e;
+peeling::InvarianceCase experiment_of(const Cell& cell, const peeling::RenderOptions& resources) {
+    peeling::InvarianceCase e;
     e.render = resources;
     e.render.width = cell.width;
     e.render.height = cell.height;
@@ -139,7 +139,7 @@ CellView CellRunner::view(const Cell& cell) {
 CellResult CellRunner::run(const Cell& cell) {
     const pipeline::DeviceProfile device = profile(cell);
     CellResult result{.view = view(cell), .measured = {}, .refusal = {}};
-    peeling::Experiment experiment = experiment_of(cell, resources_);
+    peeling::InvarianceCase experiment = experiment_of(cell, resources_);
     experiment.render.second_list = split_list(cell);
     result.measured = peeling::measure(scene(cell.scene).list, result.view.view, device, experiment);
     if (result.measured.refusal) result.refusal = result.measured.refusal->message(device);

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "peeling/prepared_lists.h"
+#include "peeling/frame/prepared_lists.h"
 #include "pipeline/vertices/prepare.h"
 #include "scenes/numbers/srgb_encode.h"
 #include "tools/oracle/mistakes/catalogue.h"

@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "peeling/prepared_lists.h"
+#include "peeling/frame/prepared_lists.h"
 #include "peeling/raster_state.h"
 #include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/float_environment.h"

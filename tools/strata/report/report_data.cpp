@@ -225,7 +225,8 @@ class Builder {
             data_.document["algorithms"].push_back(std::move(entry));
             return;
         }
-        if (inspected_ == nullptr || (algorithm.name == "dual" && inspected_->name != "dual")) inspected_ = &algorithm;
+        if (inspected_ == nullptr || (algorithm.takes_both_ends && !inspected_->takes_both_ends))
+            inspected_ = &algorithm;
         entry["refusal"] = nullptr;
         entry["stats"] = to_row(
             {&algorithm, result, pipeline::digest(result.frame.color), ""},

@@ -1,4 +1,4 @@
-// peeling/prepared_lists.h - the draw lists of the frames of one command, each transformed and set up once.
+// peeling/frame/prepared_lists.h - the draw lists of the frames of one command, each transformed and set up once.
 //
 // Rule     Lists in other submission orders are prepared when an algorithm first requires them. The second list is
 //          drawn by all passes except the first, if another vertex path, another split of the surfaces or another depth
@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "peeling/algorithms/algorithm.h"
+#include "peeling/frame/shadow_light.h"
 #include "peeling/render_options.h"
-#include "peeling/shadow_light.h"
 #include "pipeline/vertices/prepare.h"
 
 namespace strata::peeling {

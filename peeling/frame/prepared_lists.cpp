@@ -1,10 +1,10 @@
-// peeling/prepared_lists.cpp - decides which lists a frame needs, the submission order of their triangles, and when
-// they are prepared.
-#include "peeling/prepared_lists.h"
+// peeling/frame/prepared_lists.cpp - decides which lists a frame needs, the submission order of their triangles, and
+// when they are prepared.
+#include "peeling/frame/prepared_lists.h"
 
 #include <algorithm>
 
-#include "peeling/stopwatch.h"
+#include "peeling/frame/stopwatch.h"
 #include "pipeline/vertices/check_list.h"
 #include "pipeline/vertices/other_splits.h"
 #include "rasterizer/set_up/check_input.h"

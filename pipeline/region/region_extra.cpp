@@ -1,7 +1,7 @@
-// pipeline/region/region_idle.cpp - disabled stages simulated with a state that changes nothing, as Effects::all
+// pipeline/region/region_extra.cpp - disabled stages simulated with a state that changes nothing, as Effects::all
 // requires.
 //
-// Rule     An idle stage does the stage's work on the pass's own fragments and counts nothing. Its result is passed to
+// Rule     An extra stage does the stage's work on the pass's own fragments and counts nothing. Its result is passed to
 //          the next stage wherever the stage's rule guarantees that it is unchanged: alpha and depth tests that pass
 //          everything, a stencil that keeps, and blending ONE and ZERO of UNORM8 (write_colors). In float formats s + 0
 //          d differs from s for -0, infinity and NaN: there the sum is computed and discarded.
@@ -17,24 +17,24 @@
 namespace strata::pipeline {
 
 // The 8-bit code of any alpha is at least 0.
-void Stages::idle_alpha_test(const PassState& state, const FragmentBatch& batch, Outputs& out) {
+void Stages::extra_alpha_test(const PassState& state, const FragmentBatch& batch, Outputs& out) {
     if (!state.color[0].exists()) return;  // no alpha of colour 0
     constexpr AlphaTest passes_all{.enabled = true, .func = CompareFunc::gequal, .ref = 0.0f};
     alpha_test(passes_all, true, out.color[0][3].data(), out.alive.data(), batch.count);
 }
 
-void Stages::idle_tests(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive) {
+void Stages::extra_tests(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive) {
     const PixelLanes at_pixels{batch.pixel.data(), static_cast<std::size_t>(batch.count)};
-    if (shared_.idles(Effect::depth_test, state.depth.enabled)) {
+    if (shared_.runs_extra(Effect::depth_test, state.depth.enabled)) {
         constexpr DepthTest passes_all{.enabled = true, .func = CompareFunc::always, .write = false};
         TargetStorage& depth = targets_.at(targets_.opaque_depth());
         static_cast<void>(test_depth(passes_all, depth_format(depth.format()), depth.depth_plane(0), at_pixels,
                                      batch.code.data(), alive.data()));
     }
-    if (!shared_.idles(Effect::stencil_test, state.stencil.enabled)) return;
-    if (!idle_stencil_) idle_stencil_.emplace(Format::s8, 1, shared_.rect().area());
+    if (!shared_.runs_extra(Effect::stencil_test, state.stencil.enabled)) return;
+    if (!extra_stencil_) extra_stencil_.emplace(Format::s8, 1, shared_.rect().area());
     RegionScratch& s = shared_.scratch;
-    const Texels stencil{idle_stencil_->stencil_plane(0), 1, 32};
+    const Texels stencil{extra_stencil_->stencil_plane(0), 1, 32};
     gather_codes(stencil, at_pixels, &s.stencil_stored);
     std::fill_n(s.depth_pass.begin(), batch.count, ~0u);
     constexpr StencilTest keeps{.enabled = true, .two_sided = false, .front = {}, .back = {}};
@@ -43,13 +43,13 @@ void Stages::idle_tests(const PassState& state, const FragmentBatch& batch, Lane
     scatter_codes(stencil, at_pixels, alive.data(), 1, &s.stencil_stored);
 }
 
-void Stages::idle_blend(const Blend& blending, const FragmentBatch& batch, const ColorLanes& color,
-                        const TargetStorage& target, int sample) {
+void Stages::extra_blend(const Blend& blending, const FragmentBatch& batch, const ColorLanes& color,
+                         const TargetStorage& target, int sample) {
     Blend again = blending;
     again.enabled = true;
     const FormatInfo format = info(target.format());
-    target.gather(batch.pixel, batch.count, sample, shared_.scratch.idle_codes);
-    blend(again, format.type, shared_.profile(), format.channels, color, shared_.scratch.idle_codes, batch.count);
+    target.gather(batch.pixel, batch.count, sample, shared_.scratch.extra_codes);
+    blend(again, format.type, shared_.profile(), format.channels, color, shared_.scratch.extra_codes, batch.count);
 }
 
 }  // namespace strata::pipeline

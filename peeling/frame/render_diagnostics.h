@@ -1,5 +1,5 @@
-// peeling/render_diagnostics.h - the diagnostics of a frame: causes of order errors, peels that did not terminate, and
-// features that no device had.
+// peeling/frame/render_diagnostics.h - the diagnostics of a frame: causes of order errors, peels that did not
+// terminate, and features that no device had.
 //
 // Source   peeling/reference/keys-and-counts.md 3.4 and 7.3.
 // Tests    tests/peeling/comparison_test.cpp, published_test.cpp, algorithms/shadow_map_test.cpp
@@ -24,10 +24,6 @@ struct PassDepths {
     bool are_flushed = false;  // the whole depth range is denormal, and blending into float targets flushes it to zero
 };
 
-[[nodiscard]] bool needs(const Algorithm& algorithm, pipeline::Feature feature);
-[[nodiscard]] bool flushes_depths(const pipeline::DeviceProfile& profile,
-                                  const rasterizer::RasterState& raster) noexcept;
-
 // Reports the cause of order errors: the first that applies, in the order of keys-and-counts.md 7.3.
 void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& options, const PassDepths& depths,
                            const AuditResult& audit, std::vector<pipeline::Diagnostic>& all);
@@ -40,7 +36,7 @@ void note_endless(const Algorithm& algorithm, const pipeline::Frame& frame, cons
 void note_set_up(const rasterizer::SetupCounters& counters, std::vector<pipeline::Diagnostic>& all);
 
 // Reports features of the algorithm that no device had. `quantizes`: a compared depth is rounded like a stored one.
-void note_machine(const Algorithm& algorithm, pipeline::DepthFormat format, bool quantizes,
-                  std::vector<pipeline::Diagnostic>& all);
+void note_extensions(const Algorithm& algorithm, pipeline::DepthFormat format, bool quantizes,
+                     std::vector<pipeline::Diagnostic>& all);
 
 }  // namespace strata::peeling

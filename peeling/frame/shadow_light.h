@@ -1,4 +1,4 @@
-// peeling/shadow_light.h - a light's shadow map: one depth pass over the opaque scene from the light's view.
+// peeling/frame/shadow_light.h - a light's shadow map: one depth pass over the opaque scene from the light's view.
 // It runs literally and before the eye's passes, which sample it anywhere. Transparent surfaces cast no shadow, even
 // where --alpha makes all of them transparent.
 #pragma once

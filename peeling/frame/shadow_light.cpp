@@ -1,7 +1,8 @@
-// peeling/shadow_light.cpp - the light's pass: the device's own depth pass, from another view into a square target.
-#include "peeling/shadow_light.h"
+// peeling/frame/shadow_light.cpp - the light's pass: the device's own depth pass, from another view into a square
+// target.
+#include "peeling/frame/shadow_light.h"
 
-#include "peeling/check_options.h"
+#include "peeling/frame/check_options.h"
 #include "pipeline/region/executor.h"
 #include "pipeline/region/region.h"
 

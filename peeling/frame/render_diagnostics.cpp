@@ -1,24 +1,14 @@
-// peeling/render_diagnostics.cpp - the order in which causes are checked, and their messages.
-#include "peeling/render_diagnostics.h"
+// peeling/frame/render_diagnostics.cpp - the order in which causes are checked, and their messages.
+#include "peeling/frame/render_diagnostics.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
-#include "peeling/registry.h"
 #include "rasterizer/set_up/geometry.h"
 
 namespace strata::peeling {
 
 using namespace pipeline;
-
-bool needs(const Algorithm& algorithm, Feature feature) {
-    return std::find(algorithm.features.begin(), algorithm.features.end(), feature) != algorithm.features.end();
-}
-
-bool flushes_depths(const DeviceProfile& profile, const rasterizer::RasterState& raster) noexcept {
-    return profile.denormals == DenormalRule::flush && std::max(raster.depth_near, raster.depth_far) < 0x1p-126f;
-}
 
 void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& options, const PassDepths& depths,
                            const AuditResult& audit, std::vector<Diagnostic>& all) {
@@ -82,8 +72,8 @@ void note_set_up(const rasterizer::SetupCounters& counters, std::vector<Diagnost
                         std::to_string(counters.first_non_finite)});
 }
 
-void note_machine(const Algorithm& algorithm, DepthFormat format, bool quantizes, std::vector<Diagnostic>& all) {
-    if (algorithm.run == find_algorithm("depth_units")->run && !algorithm.body)
+void note_extensions(const Algorithm& algorithm, DepthFormat format, bool quantizes, std::vector<Diagnostic>& all) {
+    if (needs(algorithm, Feature::sequential_depth_units) && !algorithm.body)
         merge(all, {Fault::emulator_extension, 0, -1, -1, "STRATA_depth_units: no device had sequential depth units"});
     if (needs(algorithm, Feature::ordered_rmw))
         merge(all, {Fault::emulator_extension, 0, -1, -1,

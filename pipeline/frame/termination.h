@@ -1,4 +1,4 @@
-// pipeline/frame/verdict.h - decides from a frame-wide query count whether a loop continues
+// pipeline/frame/termination.h - decides from a frame-wide query count whether a loop continues
 // (pipeline/reference/execution.md 4.1).
 #pragma once
 #include <cstdint>

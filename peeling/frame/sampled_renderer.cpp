@@ -1,4 +1,4 @@
-// peeling/sampled_renderer.cpp - renders every sample as a frame of its own and resolves the frames
+// peeling/frame/sampled_renderer.cpp - renders every sample as a frame of its own and resolves the frames
 // (sampled_renderer.h).
 #include "peeling/sampled_renderer.h"
 
@@ -11,7 +11,7 @@
 
 #include "peeling/audit/pixel_audit.h"
 #include "peeling/audit/region_trace.h"
-#include "peeling/pass_limit.h"
+#include "peeling/frame/pass_limit.h"
 #include "pipeline/device/sample_points.h"
 #include "pipeline/formats/resolve.h"
 #include "pipeline/frame/observer.h"
@@ -122,7 +122,7 @@ struct SampledRenderer::State {
     Multisampling sampling;
     std::vector<std::unique_ptr<Renderer>> renderers{};
 
-    [[nodiscard]] Verdict refusal(const Algorithm& algorithm) const {
+    [[nodiscard]] std::optional<Refusal> refusal(const Algorithm& algorithm) const {
         const int samples = sampling.samples;
         if (auto lacking = check_multisampling(profile, samples)) return lacking;
         if (sampling.resolve == Resolve::quincunx &&
@@ -130,7 +130,7 @@ struct SampledRenderer::State {
             return Refusal{"Quincunx filter of " + std::to_string(samples) + " samples", "NV_multisample_filter_hint",
                            "use --profile geforce3 with --samples 2"};
         if (samples > 1 && algorithm.samples > 1)
-            return Refusal{"samples to spare for " + algorithm.name + ", which stores fragments in them", "",
+            return Refusal{"multisampling in " + algorithm.name + ", which stores fragments in the samples", "",
                            "use --samples 1, or k_buffer"};
         return std::nullopt;
     }

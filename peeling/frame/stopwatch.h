@@ -1,4 +1,4 @@
-// peeling/stopwatch.h - adds the seconds of its scope to a sum. Used for statistics; no image depends on it.
+// peeling/frame/stopwatch.h - adds the seconds of its scope to a sum. Used for statistics; no image depends on it.
 #pragma once
 #include <chrono>
 

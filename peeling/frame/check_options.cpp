@@ -1,5 +1,5 @@
-// peeling/check_options.cpp - the checks of check_options.h, field by field.
-#include "peeling/check_options.h"
+// peeling/frame/check_options.cpp - the checks of check_options.h, field by field.
+#include "peeling/frame/check_options.h"
 
 #include <algorithm>
 #include <iterator>
@@ -66,7 +66,7 @@ void check_options(const RenderOptions& o) {
     of_color("back_format", o.back_format);
 }
 
-Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest& depth) {
+std::optional<Refusal> check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest& depth) {
     using rasterizer::DepthPath;
     if (auto lacking = check(profile, depth.format)) return lacking;
     const bool has_chip_rule =
@@ -82,7 +82,7 @@ Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest
     return check(profile, depth.path);
 }
 
-Verdict check_order(const RenderOptions& options, DepthFormat format, bool casts_shadows) {
+std::optional<Refusal> check_order(const RenderOptions& options, DepthFormat format, bool casts_shadows) {
     if (options.raster.depth_order == rasterizer::DepthOrder::less) {
         if (options.raster.depth_near > options.raster.depth_far)
             return Refusal{"peeling with LESS over a reversed depth range", "",
@@ -92,23 +92,23 @@ Verdict check_order(const RenderOptions& options, DepthFormat format, bool casts
     }
     if (format != DepthFormat::d32f)
         return Refusal{"peeling with GREATER over fixed-point depth", "",
-                       "use --depth-format d32f, where reversed depth gains anything"};
+                       "use --depth-format d32f: reversed depth gains nothing in fixed point"};
     if (options.compare_epsilon.absolute != 0 || !options.quantize_reference)
-        return Refusal{"reversed depth together with depths that are compared between codes", "",
-                       "use --compare-epsilon in ulp"};
+        return Refusal{"reversed depth with an absolute compare epsilon or an unrounded compared depth", "",
+                       "use --compare-epsilon Nulp"};
     if (casts_shadows)
         return Refusal{"reversed depth together with a light that casts shadows", "", "use --depth-order less"};
     return std::nullopt;
 }
 
-Verdict check_shading(const DeviceProfile& profile, const Algorithm& algorithm, const rasterizer::DepthRequest& depth,
-                      rasterizer::Interpolation interpolation) {
+std::optional<Refusal> check_shading(const DeviceProfile& profile, const Algorithm& algorithm,
+                                     const rasterizer::DepthRequest& depth, rasterizer::Interpolation interpolation) {
     if (interpolation == rasterizer::Interpolation::sample) return std::nullopt;
     if (auto lacking = check_interpolation(profile, interpolation)) return lacking;
     if (depth.path == rasterizer::DepthPath::depth_replace)
-        return Refusal{"shading once a pixel of a program that replaces depth", "", "use --shading sample"};
+        return Refusal{"per-pixel shading with replaced depth", "", "use --shading sample"};
     if (algorithm.compares_own_codes)
-        return Refusal{"shading once a pixel of " + algorithm.name + ", which compares its own stored depths", "",
+        return Refusal{"per-pixel shading in " + algorithm.name + ", which compares its own stored depths", "",
                        "use --shading sample, or front_to_back, dual, dual_independent or depth_units"};
     return std::nullopt;
 }

@@ -1,0 +1,74 @@
+// peeling/frame/refusal.cpp - the checks of refusal.h in their order.
+#include "peeling/frame/refusal.h"
+
+#include "peeling/frame/check_options.h"
+#include "peeling/registry.h"
+#include "rasterizer/base/input_error.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+std::optional<Refusal> check_w_buffer(const rasterizer::DepthRequest& request, bool is_perspective) {
+    constexpr auto w = rasterizer::DepthPath::w_buffer;
+    if (!is_perspective && (request.path == w || request.reference == w))
+        return Refusal{"w buffer for a parallel projection, whose w is 1 everywhere", "",
+                       "use depth path window_z, or a camera with perspective"};
+    if (compares_w_with_depth(request))
+        return Refusal{"comparison of w with a depth", "",
+                       "use w_buffer for both: --depth-path w_buffer --reference-path w_buffer"};
+    return std::nullopt;
+}
+
+std::optional<Refusal> check_formats(const Algorithm& algorithm, const FrameSetup& setup) {
+    const RenderOptions& options = setup.options;
+    for (const auto& format : {std::optional(setup.color_format), options.result_format, options.back_format})
+        if (auto lacking = format ? check(setup.profile, *format) : std::nullopt) return lacking;
+    if (options.back_format && !algorithm.takes_both_ends)
+        return Refusal{"separate back format in " + algorithm.name + ", which composites from one end only", "",
+                       "use dual or dual_independent"};
+    return std::nullopt;
+}
+
+std::optional<Refusal> check_results(const Algorithm& algorithm, const FrameSetup& setup) {
+    if (setup.options.keep_layers && !algorithm.makes_layers)
+        return Refusal{"saved layers in " + algorithm.name + ", which composites without saving layers", "",
+                       "use dual or front_to_back"};
+    if (algorithm.compares_own_codes && !setup.is_invariant())
+        return Refusal{"other compared depth in " + algorithm.name, "",
+                       "use depth_units, front_to_back, dual or dual_independent"};
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Refusal> refusal_of(const Algorithm& algorithm, const FrameSetup& setup) {
+    if (algorithm.run == nullptr && algorithm.run_with == nullptr && !algorithm.body)
+        throw InputError("algorithm '" + algorithm.name + "'", "run", "a function, or one in body", "neither");
+    const RenderOptions& options = setup.options;
+    const DeviceProfile& profile = setup.profile;
+    const rasterizer::DepthRequest request = setup.depth_of(algorithm);
+    const bool casts_shadows = setup.lists.settings().list.light.has_value();
+    if (auto lacking = check_size(profile, options.width, options.height)) return lacking;
+    if (auto lacking = check_depth(profile, request)) return lacking;
+    if (auto lacking = check_w_buffer(request, setup.is_perspective)) return lacking;
+    if (auto lacking = check_formats(algorithm, setup)) return lacking;
+    if (auto lacking = check_order(options, setup.depth.format, casts_shadows)) return lacking;
+    if (options.raster.depth_clamp)
+        if (auto lacking = check(profile, Feature::depth_clamp)) return lacking;
+    if (auto lacking = check_shading(profile, algorithm, request, options.raster.interpolation)) return lacking;
+    if (auto lacking = check_results(algorithm, setup)) return lacking;
+    return refusal(algorithm, profile);
+}
+
+std::optional<Refusal> refusal_of_depth_pass(const Algorithm& one_pass, const FrameSetup& setup) {
+    const RenderOptions& options = setup.options;
+    if (auto lacking = check_size(setup.profile, options.width, options.height)) return lacking;
+    if (auto lacking = check_depth(setup.profile, setup.depth)) return lacking;
+    if (auto lacking = check(setup.profile, setup.color_format)) return lacking;
+    return check_shading(setup.profile, one_pass, setup.depth, options.raster.interpolation);
+}
+
+}  // namespace strata::peeling
