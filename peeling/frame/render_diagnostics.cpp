@@ -23,7 +23,7 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
     if (audit.opaque_ties.pixels > 0)
         note(Fault::ties_with_opaque, audit.opaque_ties,
              std::to_string(audit.hidden_by_opaque_ties) +
-                 " fragments at the very depth of an opaque surface: LESS hides them, LEQUAL would show them");
+                 " fragments at exactly the depth of an opaque surface: LESS hides them, LEQUAL would show them");
     const bool sorts = algorithm.order == ListOrder::objects || algorithm.order == ListOrder::back_to_front;
     const bool orders = algorithm.exact || sorts || !depths.is_invariant;
     if (!orders || audit.order_errors.value_or(0) == 0) return;
@@ -33,7 +33,7 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
         note(Fault::truncated, audit.misordered, "the peel ended before the last layer");
     else if (algorithm.has_published_form && options.formulation == Formulation::published)
         note(Fault::as_published, audit.misordered,
-             std::to_string(*audit.order_errors) + " places lost, repeated or misplaced by the listing as printed");
+             std::to_string(*audit.order_errors) + " layers lost, repeated or misplaced by the listing as printed");
     else if (algorithm.order == ListOrder::sets)
         note(Fault::out_of_order, audit.misordered, "the ordered set (--sorted) does not arrive front to back");
     else if (algorithm.order == ListOrder::objects && !algorithm.exact)
@@ -42,11 +42,11 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
         note(Fault::out_of_order, audit.misordered, "triangles sorted by their centroids overlap out of order");
     else if (!depths.is_invariant)
         note(Fault::unlike_depths, audit.misordered,
-             std::to_string(*audit.order_errors) + " places lost, repeated or misplaced");
+             std::to_string(*audit.order_errors) + " layers lost, repeated or misplaced");
     else if (needs(algorithm, Feature::float_targets) && depths.are_flushed)
         note(
             Fault::unlike_depths, audit.misordered,
-            std::to_string(*audit.order_errors) + " places lost or repeated: blending flushes denormal depths to zero");
+            std::to_string(*audit.order_errors) + " layers lost or repeated: blending flushes denormal depths to zero");
     else if (options.termination.rule == TerminationRule::paper && algorithm.ties == TiePolicy::merged)
         note(Fault::early_end, audit.misordered, "every back layer of a pass had alpha 0 while layers were left (E14)");
 }

@@ -288,7 +288,7 @@ void Targets::report_overflow(Target published) const {
             report(Fault::non_finite_target, " holds infinity or NaN",
                    [&](Word word) { return holds_non_finite(word, type); });
         if (type == ChannelType::half && greatest != 0)
-            report(Fault::half_saturated, " holds the greatest half, at which sums stop",
+            report(Fault::half_saturated, " holds the greatest half: its sums have stopped growing",
                    [&](Word word) { return holds_half(word, greatest); });
     }
 }

@@ -26,9 +26,9 @@ const std::vector<Cause> causes{
     {"painter", false, Fault::out_of_order, "triangles sorted by their centroids overlap out of order"},
     {"object_sorted", true, Fault::out_of_order, "objects or their own triangles overlap out of order"},
     {"hybrid", true, Fault::out_of_order, "the ordered set (--sorted) does not arrive front to back"},
-    {"batched", false, Fault::unlike_depths, "3 places lost, repeated or misplaced"},
-    {"front_to_back", false, Fault::unlike_depths, "3 places lost, repeated or misplaced"},
-    {"k_buffer", false, Fault::unlike_depths, "3 places lost, repeated or misplaced"},
+    {"batched", false, Fault::unlike_depths, "3 layers lost, repeated or misplaced"},
+    {"front_to_back", false, Fault::unlike_depths, "3 layers lost, repeated or misplaced"},
+    {"k_buffer", false, Fault::unlike_depths, "3 layers lost, repeated or misplaced"},
     {"k_buffer", true, {}, ""},
     {"unsorted", true, {}, ""},
     {"weighted_average", true, {}, ""}};

@@ -314,12 +314,12 @@ TEST_CASE("order errors and lost ties are attributed to the first cause that app
     peel.features = {Feature::float_targets};
     CHECK(diagnosed_as(peel, options, {.is_invariant = true, .are_flushed = false}, audit).empty());
     CHECK(diagnosed_as(peel, options, {.is_invariant = true, .are_flushed = true}, audit) ==
-          "unlike_depths: 5 places lost or repeated: blending flushes denormal depths to zero; ");
+          "unlike_depths: 5 layers lost or repeated: blending flushes denormal depths to zero; ");
     CHECK(diagnosed_as(peel, options, {.is_invariant = false, .are_flushed = true}, audit) ==
-          "unlike_depths: 5 places lost, repeated or misplaced; ");
+          "unlike_depths: 5 layers lost, repeated or misplaced; ");
     peel.order = ListOrder::objects;  // exact, so its objects are not a cause
     CHECK(diagnosed_as(peel, options, {.is_invariant = false, .are_flushed = false}, audit) ==
-          "unlike_depths: 5 places lost, repeated or misplaced; ");
+          "unlike_depths: 5 layers lost, repeated or misplaced; ");
     peel.exact = false;
     CHECK(diagnosed_as(peel, options, {.is_invariant = false, .are_flushed = false}, audit) ==
           "out_of_order: objects or their own triangles overlap out of order; ");
