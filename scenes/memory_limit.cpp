@@ -1,3 +1,4 @@
+// scenes/memory_limit.cpp - reads what is free from /proc and from the control group (memory_limit.h).
 #include "scenes/memory_limit.h"
 
 #include <algorithm>
