@@ -1,7 +1,7 @@
 // peeling/raster_state.h - converts the options' conventions, which are those of the image, to the rasterization state
 // of the device's memory.
 //
-// Tests    tests/peeling/origin_test.cpp
+// Tests    tests/peeling/frame/origin_test.cpp
 #pragma once
 #include "peeling/programs/algorithm_options.h"
 #include "peeling/render_options.h"

@@ -6,7 +6,7 @@
 //          farther one. A sample with any of them is at a silhouette if the samples of its pixel have different numbers
 //          of fragments, at an inner edge if they have the same number but not the same triangles, else inside.
 // Source   pipeline/reference/fragment-stages.md 13.5; peel_errors.h.
-// Tests    tests/peeling/sample_hazard_test.cpp
+// Tests    tests/peeling/frame/sample_hazard_test.cpp
 #pragma once
 #include "peeling/render_options.h"
 #include "peeling/sampled_renderer.h"

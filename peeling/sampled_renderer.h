@@ -7,7 +7,7 @@
 //          differences are the maximum of the samples. Layer k of the frame is resolved from layer k, from the same
 //          end, of every sample; a sample without such a layer has codes of 0. Depth is the nearest of the samples.
 // Source   pipeline/reference/fragment-stages.md 13
-// Tests    tests/peeling/sampled_renderer_test.cpp
+// Tests    tests/peeling/frame/sampled_renderer_test.cpp
 #pragma once
 #include <functional>
 #include <memory>

@@ -7,7 +7,7 @@
 //          triangles, selected at random from the seed, is permuted in one cycle: each moves to the position of the
 //          next.
 // Source   Carr, Mech and Miller 2008, section 9 (bucket sort of centroids); peeling/reference/keys-and-counts.md 5.
-// Tests    tests/peeling/sort_test.cpp
+// Tests    tests/peeling/frame/sort_test.cpp
 #pragma once
 #include <cstdint>
 #include <vector>

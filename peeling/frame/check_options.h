@@ -1,7 +1,7 @@
 // peeling/frame/check_options.h - checks a frame's options before anything is prepared: invalid values throw, features
 // that the device lacks give a Refusal that names them.
 //
-// Tests    tests/peeling/refusals_test.cpp
+// Tests    tests/peeling/frame/refusals_test.cpp
 #pragma once
 #include "peeling/render_options.h"
 #include "pipeline/device/check.h"

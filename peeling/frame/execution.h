@@ -3,7 +3,7 @@
 // Rule     Literal: whole_frame algorithms; samples that may be left out; a count of passes or nodes across tiles; and
 //          counters. Every way gives the same bits.
 // Source   pipeline/reference/execution.md
-// Tests    tests/peeling/path_test.cpp
+// Tests    tests/peeling/frame/path_test.cpp
 #pragma once
 #include "peeling/algorithms/algorithm.h"
 #include "peeling/render_options.h"

@@ -2,7 +2,7 @@
 //
 // Rule     --max-passes and fixed:N replace it. 0: no limit.
 // Source   peeling/reference/keys-and-counts.md 3.4
-// Tests    tests/peeling/sample_coverage_test.cpp, tests/fuzz
+// Tests    tests/peeling/frame/sample_coverage_test.cpp, tests/fuzz
 #pragma once
 #include "peeling/algorithms/algorithm.h"
 #include "peeling/render_options.h"

@@ -2,7 +2,7 @@
 //
 // Rule     In the order of pipeline/reference/devices.md 9.2: size, depth, formats, order, shading, layers, the
 //          algorithm's features.
-// Tests    tests/peeling/refusals_test.cpp
+// Tests    tests/peeling/frame/refusals_test.cpp
 #pragma once
 #include "peeling/frame/setup.h"
 #include "pipeline/device/check.h"

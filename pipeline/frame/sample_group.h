@@ -6,7 +6,7 @@
 //          a limit holds when all have reached it. So all make the same steps, and the result does not depend on the
 //          threads.
 // Source   pipeline/reference/fragment-stages.md 13.5.
-// Tests    tests/peeling/sample_loads_test.cpp
+// Tests    tests/peeling/frame/sample_loads_test.cpp
 #pragma once
 #include <condition_variable>
 #include <cstdint>

@@ -8,7 +8,7 @@
 //          border texels.
 // Source   Williams 1978 and Everitt 2001, "Shadow Mapping"; pipeline/reference/texturing.md 6. The comparison is
 //          shadow_compare.h's.
-// Tests    tests/peeling/shadow_light_test.cpp
+// Tests    tests/peeling/frame/shadow_light_test.cpp
 #pragma once
 #include "pipeline/textures/shadow_compare.h"
 #include "pipeline/vertices/draw_list.h"

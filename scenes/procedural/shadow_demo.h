@@ -5,7 +5,7 @@
 //          texels; shadowed surfaces keep 0.4 of their colour. Polygon offset (1.5, 8) keeps lit surfaces from
 //          shadowing themselves.
 // Source   Everitt 2001, "Shadow Mapping".
-// Tests    tests/scenes/procedural/procedural_test.cpp, tests/peeling/shadow_light_test.cpp
+// Tests    tests/scenes/procedural/procedural_test.cpp, tests/peeling/frame/shadow_light_test.cpp
 #pragma once
 #include "scenes/scene.h"
 
