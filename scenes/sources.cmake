@@ -21,6 +21,7 @@ set(strata_scenes_sources
   files/png.cpp
   images/png_encode.cpp
   files/profile_json.cpp
+  files/read_files.cpp
   files/straight_color.cpp
   files/strict_json.cpp
   files/text_file.cpp
@@ -42,6 +43,7 @@ set(strata_scenes_sources
   gltf/model.cpp
   gltf/nodes.cpp
   models/load_model_module.cpp
+  models/model_counts.cpp
   models/models.cpp
   numbers/elementary.cpp
   numbers/srgb_encode.cpp
@@ -87,6 +89,7 @@ set(strata_scenes_with_files
   images/png_encode.cpp
   files/unfinished_files.cpp
   models/load_model_module.cpp
+  models/model_counts.cpp
   models/models.cpp
   packs/json_fields.cpp
   packs/new_folder.cpp

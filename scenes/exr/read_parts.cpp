@@ -18,6 +18,7 @@
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/exr/openexr.h"
+#include "scenes/files/read_files.h"
 #include "scenes/lfs_pointer.h"
 #include "scenes/memory_limit.h"
 
@@ -186,6 +187,7 @@ std::unique_ptr<Imf::MultiPartInputFile> open(const std::string& path) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) throw InputError(path, "no such file");
     check_sizes_of_attributes(path);
+    note_read_file(path);
     try {
         return std::make_unique<Imf::MultiPartInputFile>(path.c_str(), start_threads());
     } catch (const std::bad_alloc&) {

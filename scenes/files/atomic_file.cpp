@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "scenes/files/read_files.h"
 #include "scenes/files/system_error.h"
 #include "scenes/files/unfinished_files.h"
 
@@ -66,6 +67,7 @@ bool leads_to_stream(const std::string& path) {
 
 AtomicFile::AtomicFile(const std::string& path)
     : path_{path}, is_stream_{leads_to_stream(path)}, buffer_{std::make_unique<std::byte[]>(buffer_bytes)} {
+    check_not_read(path);
     open_temporary();
     if (descriptor_ >= 0) return;
     const int error = errno;

@@ -17,7 +17,8 @@ namespace strata::scenes {
 
 class AtomicFile {
   public:
-    explicit AtomicFile(const std::string& path);  // SystemError if no file can be created in the folder
+    // SystemError if no file can be created in the folder; InputError if the file is protected (read_files.h).
+    explicit AtomicFile(const std::string& path);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;

@@ -52,11 +52,18 @@ class OpenObjects {
     std::vector<Level> levels_;
 };
 
+// The library takes a NUL for the end of the text, and would ignore what follows.
+void check_no_nul(const std::string& text, const std::string& file, const std::string& what) {
+    const std::size_t at = text.find('\0');
+    if (at != text.npos) throw InputError(file, "byte " + std::to_string(at + 1), what, "a NUL");
+}
+
 }  // namespace
 
 // The library's own message is not used: it names no file and differs between its versions.
 json parse_strict_json(const std::string& text, const std::string& file, const std::string& what) {
     OpenObjects keys{file};
+    check_no_nul(text, file, what);
     try {
         return json::parse(text, std::ref(keys));
     } catch (const json::parse_error& error) {

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "rasterizer/base/input_error.h"
+#include "scenes/files/read_files.h"
 #include "scenes/lfs_pointer.h"
 
 namespace strata::scenes {
@@ -47,6 +48,7 @@ std::string read_begin_of_file(const std::string& path, std::size_t bytes) {
     // A file that shrank after its size was read is rejected, too: the read is short.
     if (!file || !file.read(text.data(), static_cast<std::streamsize>(text.size())))
         throw InputError(path, "cannot be read");
+    note_read_file(path);
     if (is_lfs_pointer(text)) throw InputError(path, lfs_pointer_found);
     return text;
 }

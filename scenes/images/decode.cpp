@@ -46,6 +46,13 @@ std::unique_ptr<OIIO::ImageInput> open(OIIO::Filesystem::IOProxy& memory, const 
     return reader;
 }
 
+// The reader of TIFF reports success where pixels could not be read, and keeps a message.
+void check_read(bool has_read, OIIO::ImageInput& reader, const FileLocation& location) {
+    if (has_read && !reader.has_error()) return;
+    const std::string why = reader.geterror();
+    location.fail("IMAGE_DATA_INVALID", "an image that decodes", why.empty() ? "one that does not" : in_quotes(why));
+}
+
 // All channels as stored, 8 bits each.
 Codes read(OIIO::ImageInput& reader, const FileLocation& location) {
     const OIIO::ImageSpec& spec = reader.spec();
@@ -55,8 +62,8 @@ Codes read(OIIO::ImageInput& reader, const FileLocation& location) {
     std::vector<std::uint16_t> wide(is_wide ? count : 0);
     Codes codes(is_wide ? 0 : count);
     void* const target = is_wide ? static_cast<void*>(wide.data()) : codes.data();
-    if (!reader.read_image(0, 0, 0, spec.nchannels, is_wide ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8, target))
-        location.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader.geterror()));
+    const OIIO::TypeDesc type = is_wide ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
+    check_read(reader.read_image(0, 0, 0, spec.nchannels, type, target), reader, location);
     if (!is_wide) return codes;
     codes.reserve(count);
     // c / 257 to the nearest code, as 65535 = 255 * 257. The sum is below 2^17 and fits an int.
@@ -94,8 +101,7 @@ template <class Word>
 void read_words(OIIO::ImageInput& reader, OIIO::TypeDesc type, const FileLocation& location, FileCodes& to) {
     const OIIO::ImageSpec& spec = reader.spec();
     std::vector<Word> words(static_cast<std::size_t>(spec.width) * spec.height * spec.nchannels);
-    if (!reader.read_image(0, 0, 0, spec.nchannels, type, words.data()))
-        location.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader.geterror()));
+    check_read(reader.read_image(0, 0, 0, spec.nchannels, type, words.data()), reader, location);
     to.codes.assign(words.begin(), words.end());
 }
 
@@ -118,7 +124,7 @@ FileCodes decode_codes(const EncodedPicture& picture, const FileLocation& locati
     const OIIO::ImageSpec& spec = reader->spec();
     FileCodes stored{.width = spec.width, .height = spec.height, .channels = spec.nchannels};
     const std::string_view bytes{reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size()};
-    if (auto scaled = scaled_pnm(bytes, spec.width, spec.height, spec.nchannels)) return *std::move(scaled);
+    if (auto scaled = scaled_pnm(bytes, location, spec.width, spec.height, spec.nchannels)) return *std::move(scaled);
     if (spec.format == OIIO::TypeDesc::UINT16) {
         stored.bits = 16;
         read_words<std::uint16_t>(*reader, OIIO::TypeDesc::UINT16, location, stored);

@@ -31,14 +31,17 @@ std::optional<std::uint32_t> take_word(std::string_view& text, std::size_t bytes
 
 }  // namespace
 
-std::optional<FileCodes> scaled_pnm(std::string_view bytes, int width, int height, int channels) {
+std::optional<FileCodes> scaled_pnm(std::string_view bytes, const FileLocation& location, int width, int height,
+                                    int channels) {
     const bool is_text = bytes.starts_with("P2") || bytes.starts_with("P3");
     if (!is_text && !bytes.starts_with("P5") && !bytes.starts_with("P6")) return std::nullopt;
     std::string_view rest = bytes.substr(2);
     static_cast<void>(take_number(rest));
     static_cast<void>(take_number(rest));
     const std::uint32_t greatest = take_number(rest).value_or(0);
-    if (greatest == 0 || greatest == 255 || greatest > 65535) return std::nullopt;
+    if (greatest == 0 || greatest > 65535)
+        location.fail("IMAGE_DATA_INVALID", "a greatest value of 1 to 65535", std::to_string(greatest));
+    if (greatest == 255) return std::nullopt;
     if (!is_text && !rest.empty()) rest.remove_prefix(1);
     FileCodes stored{.width = width, .height = height, .channels = channels, .bits = greatest < 256 ? 8 : 16};
     const std::size_t count =

@@ -16,7 +16,8 @@
 namespace strata::scenes::images {
 
 // For an image that OpenImageIO has accepted, with that many channels; empty for other kinds of PNM and if maxval is
-// 255.
-[[nodiscard]] std::optional<FileCodes> scaled_pnm(std::string_view bytes, int width, int height, int channels);
+// 255. Fails at `location` for a maxval beyond 1 to 65535.
+[[nodiscard]] std::optional<FileCodes> scaled_pnm(std::string_view bytes, const FileLocation& location, int width,
+                                                  int height, int channels);
 
 }  // namespace strata::scenes::images

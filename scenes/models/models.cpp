@@ -21,6 +21,7 @@
 #include "scenes/flat_normals.h"
 #include "scenes/inside_folder.h"
 #include "scenes/models/load_model_module.h"
+#include "scenes/models/model_counts.h"
 #include "scenes/numbers/srgb_encode.h"
 
 namespace strata::scenes {
@@ -40,7 +41,13 @@ class ModelFolder {
     // Errors in the model itself throw; for another file that is missing or no regular file the result is empty.
     [[nodiscard]] std::vector<std::byte> read(const std::string& name) const {
         const fs::path relative = fs::path(name).lexically_normal();
-        if (relative == fs::path(path_).filename()) return bytes_of(path_);
+        if (relative == fs::path(path_).filename()) {
+            std::vector<std::byte> bytes = bytes_of(path_);
+            const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+            if (has_ending(path_, ".ply")) models::check_ply_counts(text, path_);
+            if (has_ending(path_, ".off")) models::check_off_counts(text, path_);
+            return bytes;
+        }
         const auto file = inside(name);
         return file ? bytes_of(*file) : std::vector<std::byte>{};
     }

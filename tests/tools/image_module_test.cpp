@@ -10,7 +10,7 @@ using namespace strata::test;
 namespace {
 
 constexpr const char* render = " render teapot --size 16x16 --no-audit -o out.png";
-constexpr const char* digest = " digest out.png";
+constexpr const char* digest = " info --digests out.png";
 
 // Copies the program to bin/ and, if a folder is given, the module into that folder.
 void install(const Folder& folder, const std::string& module_folder) {

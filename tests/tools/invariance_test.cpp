@@ -163,7 +163,7 @@ TEST_CASE("a scene whose name is not UTF-8 is measured and the sweep resumed") {
     CHECK(second.status == 0);
     CHECK(first.out == second.out);
     const CommandResult bench = run_strata(folder, {"bench", name, "--size", "8x8", "--algorithm", "dual", "--repeat",
-                                                    "1", "--warm-up", "0", "--threads", "1", "--json", "-"});
+                                                    "1", "--warm-up", "0", "--threads", "1", "--json"});
     CHECK(bench.status == 0);
     CHECK(ordered_json::parse(bench.out).at("jobs").size() == 1);
     CHECK(ordered_json::parse(run_strata(folder, {"scene", name, "--json"}).out).at("name") == "b\xef\xbf\xbd.gltf");

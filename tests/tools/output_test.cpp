@@ -1,6 +1,8 @@
 // Tests that files and digests of runs that must not differ are equal.
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/program.h"
@@ -204,4 +206,36 @@ TEST_CASE("execution tiled is replay without fragment memory and standard error 
     const CommandResult replay = render(folder, {"--execution", "replay", "--stats", "-"});
     CHECK(replay.err.find("warning: --execution") == std::string::npos);
     CHECK(ordered_json::parse(replay.out)[0]["digest"] == row["digest"]);
+}
+
+TEST_CASE("a result does not replace a file that the command reads") {
+    const Folder folder;
+    const std::string scene = R"({"positions":[[-1,-1,0],[1,-1,0],[0,1,0]]})";
+    for (const std::string name : {"a.png", "b.png"})
+        REQUIRE(run_strata(folder, {"render", "planes:count=2", "--size", "8x8", "-o", name}).status == 0);
+    REQUIRE(shell(folder, "strata list profiles ideal --json > p.json").status == 0);
+    std::ofstream(folder / "t.json") << scene;
+    const std::string render = "strata render ", size = " --size 8x8 ";
+    for (const auto& [command, file] : std::vector<std::pair<std::string, std::string>>{
+             {render + "t.json --stats t.json -o new.png", "t.json"},
+             {render + "t.json --stats ./t.json -o new.png", "t.json"},
+             {render + "t.json --profile p.json --stats p.json -o new.png", "p.json"},
+             {"strata bench t.json --algorithm dual --repeat 1 --warm-up 0 -o t.json", "t.json"},
+             {"strata compare a.png b.png --heat b.png", "b.png"},
+             {"strata compare t.json a.png --side a.png", "a.png"}}) {
+        INFO(command);
+        const std::string before = content_of(folder / file);
+        const CommandResult ended = shell(folder, command + (command.find("compare a") == command.npos ? size : ""));
+        CHECK(ended.status == 2);
+        CHECK(ended.err.find(file + ": is a file that this command reads") != std::string::npos);
+        CHECK(content_of(folder / file) == before);
+    }
+    CHECK_FALSE(std::filesystem::exists(folder / "new.png"));
+}
+
+TEST_CASE("a picture for a standard output that is closed is an error") {
+    const Folder folder;
+    const CommandResult ended = shell(folder, "strata render planes:count=2 --size 8x8 -o - >&-");
+    CHECK(ended.status == 3);
+    CHECK(ended.err == "strata: -: cannot write: Bad file descriptor\n");
 }

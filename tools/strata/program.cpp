@@ -6,8 +6,10 @@
 // Tests    tests/tools/errors_test.cpp, interrupt_test.cpp
 #include "tools/strata/program.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -20,6 +22,7 @@
 #include "rasterizer/base/input_error.h"
 #include "rasterizer/base/parallel.h"
 #include "scenes/files/atomic_file.h"
+#include "scenes/files/read_files.h"
 #include "scenes/files/unfinished_files.h"
 #include "scenes/gltf/document/input_errors.h"
 #include "tools/strata/command.h"
@@ -260,11 +263,20 @@ int run(const std::vector<std::string>& words, const std::vector<NamedCommand>& 
     return parse_and_run(root, commands, words);
 }
 
+// Opens a standard stream that is closed, in the direction in which it is not used: else the next file that is opened
+// would take its number, and a result written to standard output would be lost without an error.
+void open_closed_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (::fcntl(stream, F_GETFD) == -1) ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 }  // namespace
 
 int run_program(int count, char** words, const std::vector<NamedCommand>& experiments) {
     const Clock::time_point start = Clock::now();
+    open_closed_streams();
     scenes::install_interrupt_handlers();
+    scenes::protect_read_files();
     scenes::report_written_files([](const std::string& path) { say_detail("wrote " + path); });
     try {
         const int status = run({words + std::min(count, 1), words + count}, experiments);

@@ -67,6 +67,12 @@ std::string escaped(std::string_view key) {  // RFC 6901
 
 Json parse_json(std::string_view text, const std::string& file) {
     const FileLocation location{file, ""};
+    // The library takes a NUL for the end of the text, and would ignore what follows. Some exporters pad the JSON chunk
+    // of a GLB with NULs instead of spaces: those at the end are dropped.
+    const std::size_t last = text.find_last_not_of('\0');
+    text = text.substr(0, last == text.npos ? 0 : last + 1);
+    if (const std::size_t at = text.find('\0'); at != text.npos)
+        location.fail("INVALID_JSON", "JSON", "a NUL at byte " + std::to_string(at + 1));
     Guard guard{location};
     Json::sax_parse(text.begin(), text.end(), &guard);
     return Json::parse(text.begin(), text.end());

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "scenes/inside_folder.h"
+#include "scenes/files/read_files.h"
 #include "scenes/lfs_pointer.h"
 
 namespace strata::scenes {
@@ -111,6 +112,7 @@ std::vector<std::byte> read_file(const fs::path& path, const FileLocation& locat
     std::ifstream stream(path, std::ios::binary);
     if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
         location.fail("IO_ERROR", "a readable file", "one that cannot be read");
+    note_read_file(path);
     if (is_lfs_pointer({reinterpret_cast<const char*>(bytes.data()), bytes.size()}))
         location.fail("IO_ERROR", "the file itself",
                       in_quotes(path.filename().string()) + ", which is " + lfs_pointer_found);

@@ -228,6 +228,14 @@ TEST_CASE(
     refused(".ppm", "P6 2 2 255\n\x01\x02"s);
     refused(".ppm", "P6 16384 16384 255\n\x01\x02"s);
     refused(".ppm", "P6 0 2 255\n"s);
+    refused(".ppm", "P6 1 1 0\n\1\1\1"s);
+    // A strip beyond the file, for which the reader gives zeros.
+    const auto entry = [](char tag, char type, const std::string& value) {
+        return tag + "\1"s + type + "\0\1\0\0\0"s + value;
+    };
+    refused(".tif", "II*\0\x08\0\0\0\x07\0"s + entry(0, 3, "\4\0\0\0"s) + entry(1, 3, "\4\0\0\0"s) +
+                        entry(2, 3, "\x08\0\0\0"s) + entry(6, 3, "\1\0\0\0"s) + entry('\x11', 4, "\0\1\0\0"s) +
+                        entry('\x16', 3, "\4\0\0\0"s) + entry('\x17', 4, "\x10\0\0\0"s) + "\0\0\0\0"s);
     refused(".tga", "\x89PNG\r\n\x1a\n"s);
     refused(".bmp", "BM"s);
     refused(".bmp", "");

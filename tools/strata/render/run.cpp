@@ -14,6 +14,7 @@
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/load_module.h"
 #include "scenes/files/profile_json.h"
+#include "scenes/files/read_files.h"
 #include "scenes/files/unfinished_files.h"
 #include "scenes/inside_folder.h"
 #include "scenes/numbers/srgb_encode.h"
@@ -151,6 +152,7 @@ Session open_session(RunOptions& options) {
     if (options.sample && options.samples > 1) take_sample(options, session.profile);
     const auto start = std::chrono::steady_clock::now();
     session.scene = scenes::load_scene(options.scene, options.scene_options);
+    for (const std::string& path : {options.output, options.stats}) scenes::check_not_read(path);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     say_detail(fmt::format("read {}: meshes: {}, drawn: {}, in {}", options.scene, session.scene.list.meshes.size(),
                            session.scene.list.instances.size(), seconds_text(taken.count())));
