@@ -17,15 +17,15 @@ namespace {
 struct Property {
     std::size_t bytes = 0, count_bytes = 0;  // in a binary file; `count_bytes` is 0 unless the property is a list
 };
-struct Element {
+struct PlyElement {
     std::string name;
     std::uint64_t count = 0;
     std::vector<Property> properties;
 };
 enum class Encoding : std::uint8_t { text, little_endian, big_endian };
 
-struct Header {
-    std::vector<Element> elements;
+struct PlyHeader {
+    std::vector<PlyElement> elements;
     Encoding encoding = Encoding::text;
     std::size_t end = 0;  // the first byte behind it
 };
@@ -68,8 +68,8 @@ std::uint64_t claimed(const std::string& text, std::string_view file, const std:
 }
 
 // What the header says; unknown lines are left to the loader.
-Header header_of(std::string_view file, const std::string& path) {
-    Header header;
+PlyHeader header_of(std::string_view file, const std::string& path) {
+    PlyHeader header;
     for (int line = 1; header.end < file.size(); ++line) {
         const std::size_t stop = std::min(file.find('\n', header.end), file.size());
         std::istringstream words{std::string{file.substr(header.end, stop - header.end)}};
@@ -135,7 +135,7 @@ class Values {
     Encoding encoding_;
 };
 
-bool has_element(Values& values, const Element& element) {
+bool has_element(Values& values, const PlyElement& element) {
     for (const Property& property : element.properties) {
         std::uint64_t count = 1;
         if (property.count_bytes != 0) {
@@ -151,9 +151,9 @@ bool has_element(Values& values, const Element& element) {
 }  // namespace
 
 void check_ply_counts(std::string_view file, const std::string& path) {
-    const Header header = header_of(file, path);
+    const PlyHeader header = header_of(file, path);
     Values values{file.substr(header.end), header.encoding};
-    for (const Element& element : header.elements) {
+    for (const PlyElement& element : header.elements) {
         const bool is_empty = element.properties.empty();  // elements without properties take no bytes
         for (std::uint64_t i = 0; i < element.count && !is_empty; ++i)
             if (!has_element(values, element))

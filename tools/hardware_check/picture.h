@@ -70,7 +70,7 @@ struct Drawing {
     std::string reason;
 };
 
-using Subjects = std::uint8_t;  // a set: bit s for rasterizer::Subject s
+using Subjects = std::uint8_t;  // a set: bit s for rasterizer::HypothesisSubject s
 
 // One of the test suites. Its function parses a name and draws that picture under a profile.
 struct Suite {

@@ -8,13 +8,16 @@ namespace strata::hardware_check {
 
 namespace {
 
-using rasterizer::Subject;
+using rasterizer::HypothesisSubject;
 
-constexpr Subjects set_of(Subject subject) { return static_cast<Subjects>(1u << static_cast<unsigned>(subject)); }
+constexpr Subjects set_of(HypothesisSubject subject) {
+    return static_cast<Subjects>(1u << static_cast<unsigned>(subject));
+}
 // The sets of subjects in use. A suite has a subject if its pictures can distinguish values of an undetermined constant
 // of that subject.
-constexpr Subjects colors = set_of(Subject::color), coordinates = set_of(Subject::coordinates),
-                   words = set_of(Subject::window_depth), quotients = set_of(Subject::texture_depth);
+constexpr Subjects colors = set_of(HypothesisSubject::color), coordinates = set_of(HypothesisSubject::coordinates),
+                   words = set_of(HypothesisSubject::window_depth),
+                   quotients = set_of(HypothesisSubject::texture_depth);
 
 }  // namespace
 
