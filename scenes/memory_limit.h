@@ -3,7 +3,7 @@
 //
 // Rule     The limit is that of limit_memory(); without it, the free memory that the kernel estimates (MemAvailable of
 //          /proc/meminfo), but at most the limit of the control group. There is no limit if the system reports neither.
-// Tests    tests/tools/max_memory_test.cpp
+// Tests    tests/tools/strata/render/max_memory_test.cpp
 #pragma once
 #include <cstdint>
 #include <optional>

@@ -4,7 +4,7 @@
 //          U+009F, which JSON does not escape and some terminals interpret, become \u00NN. A file name and a
 //          command-line argument may contain any byte except 0.
 // Source   RFC 3629 4.
-// Tests    tests/tools/errors_test.cpp, tests/tools/messages_test.cpp
+// Tests    tests/tools/strata/program/errors_test.cpp, tests/tools/strata/program/messages_test.cpp
 #pragma once
 #include <algorithm>
 #include <cstdint>

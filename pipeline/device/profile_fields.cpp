@@ -98,7 +98,7 @@ constexpr ProfileField interpolant_bits(std::string_view key, const Sources& sou
 }
 
 constexpr std::string_view ours = "ideal: no device";
-constexpr std::string_view drawn = "[M] tools/bench/README.md: Mesa 22.3 draws the same fragments";
+constexpr std::string_view drawn = "[M] tools/lab/bench/README.md: Mesa 22.3 draws the same fragments";
 constexpr std::string_view opengl = "[S] OpenGL 4.5, which Mesa 22.3 implements";
 constexpr std::string_view unused = "[A] of path window_z, which this profile lacks";
 constexpr std::string_view unweighted = "[A] of 8-bit colour weights, which this profile lacks";

@@ -4,7 +4,7 @@
 // Rule     A draw is set up, rasterized and finished by the stages of region_stages.cpp before the next one begins. A
 //          surface is a single region. Another surface can sample its contents: `color` and `depth` return finished
 //          images.
-// Tests    tests/tools/hardware_check/suites_test.cpp: hardware captures
+// Tests    tests/tools/lab/hardware_check/suites_test.cpp: hardware captures
 #pragma once
 #include <cstdint>
 #include <functional>

@@ -10,7 +10,7 @@
 // Numbers  Products <= 65025, sums within +-130050. The kernels store these integers as binary32 values, which
 //          represent all of them and every operation on them exactly: vector units multiply four floats at once, but
 //          not four 32-bit integers.
-// Tests    tests/pipeline/stages/blend_unorm8_test.cpp; tests/tools/hardware_check/suites_test.cpp: 43 hardware
+// Tests    tests/pipeline/stages/blend_unorm8_test.cpp; tests/tools/lab/hardware_check/suites_test.cpp: 43 hardware
 //          captures
 #pragma once
 #include <algorithm>

@@ -2,7 +2,7 @@
 //
 // Rule     It is not an error if the system refuses a thread: the loop runs on the threads that could be started, at
 //          worst on the caller alone.
-// Tests    tests/rasterizer/base/parallel_test.cpp, tests/tools/system_faults_test.cpp
+// Tests    tests/rasterizer/base/parallel_test.cpp, tests/tools/strata/program/system_faults_test.cpp
 #pragma once
 #include <atomic>
 #include <cstddef>

@@ -6,7 +6,7 @@
 //          that contains this code, and in its subfolder strata. SystemError if it is in none of them, or is of another
 //          version; for the image module also if the system has not enough threads or address space for its
 //          dependencies.
-// Tests    tests/tools/image_module_test.cpp
+// Tests    tests/tools/strata/render/image_module_test.cpp
 #pragma once
 #include <string>
 

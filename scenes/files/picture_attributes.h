@@ -1,6 +1,6 @@
 // scenes/files/picture_attributes.h - reads the attributes of an image file: the command, camera and profile that were
 // stored with its pixels.
-// Tests    tests/tools/manual_test.cpp
+// Tests    tests/tools/strata/program/manual_test.cpp
 #pragma once
 #include <string>
 

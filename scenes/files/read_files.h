@@ -4,7 +4,7 @@
 //          made. After protect_read_files() every file that the scenes library reads is remembered by device and inode,
 //          and AtomicFile refuses to replace one of them. A library does not protect: a program may read a file,
 //          change its values and write it again.
-// Tests    tests/scenes/files/read_files_test.cpp, tests/tools/output_test.cpp
+// Tests    tests/scenes/files/read_files_test.cpp, tests/tools/strata/render/output_test.cpp
 #pragma once
 #include <string>
 

@@ -2,7 +2,7 @@
 //
 // Rule     Before a signal ends the process, its handler kills the commands that the process runs, then removes the
 //          files and folders. SIGKILL and SIGSTOP cannot be caught.
-// Tests    tests/scenes/files/unfinished_files_test.cpp, tests/tools/interrupt_test.cpp
+// Tests    tests/scenes/files/unfinished_files_test.cpp, tests/tools/strata/program/interrupt_test.cpp
 #pragma once
 #include <string>
 #include <string_view>

@@ -4,7 +4,7 @@
 //          the first image is read (files/load_module.h; images/png_encode.h writes). The interface uses only standard
 //          types: a `pipeline::Image` has an allocator that the module does not share. The module does not know target
 //          formats, digests or temporary names; it returns bytes, sizes and messages.
-// Tests    tests/scenes/files/png_test.cpp; tests/tools/image_module_test.cpp
+// Tests    tests/scenes/files/png_test.cpp; tests/tools/strata/render/image_module_test.cpp
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // scenes/packs/new_folder.h - a folder that is kept only if all of its files were written; a signal that ends the
 // process removes it, too.
 //
-// Tests    tests/tools/probe/pack_test.cpp
+// Tests    tests/tools/lab/probe/pack_test.cpp
 #pragma once
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Opens the page of every command with --report, and of reproduce, in headless Chromium: plain_pages.py STRATA
+"""Opens the page of every command with --report, and those of the experiments, in headless Chromium: plain_pages.py STRATA
 
 Each page must have text, show its pictures, load no other file, log nothing to the console, violate no rule of axe-core (STRATA_AXE), fit a screen
 390 pixels wide, and its tables must sort by keyboard. STRATA_SCREENSHOTS=FOLDER stores pictures there. Skips with a message and exit status 77
@@ -22,13 +22,13 @@ PAGES = {
                         "strata golden teapot --size 48x36 --algorithm dual --orbit 31,20 -o other > out.txt;"
                         "mkdir -p mine; cp -r other/expected/dual mine/dual; strata compare pack mine --report folders.html", "folders.html"),
     "hardware-check": ("mkdir -p captures/Clear; strata render showroom --size 640x480 --algorithm unsorted -q -o captures/Clear/C00000000_Depth_y.png;"
-                       "strata hardware-check captures --report captures.html", "captures.html"),
+                       "strata hardware-check captures -o captured > out.txt; LAB/hardware_check/page.py captured --whole -o captures.html", "captures.html"),
     "diagnose": ("strata render showroom --size 64x64 -q --algorithm unsorted -o mine.png; strata diagnose showroom mine.png --report diagnose.html", "diagnose.html"),
-    "cost": ("strata cost planes:count=3 --size 32x24 --knob average_count --repeat 1 -o cost --report cost.html", "cost.html"),
-    "hard-cases": ("strata hard-cases coincident --algorithm dual,painter --profile ideal --depth-format d16,d32f --no-moves -o hard --report hard.html",
-                   "hard.html"),
-    "invariance": ("strata invariance planes:gap=8 --size 32x24 --remedy none,bias:4 -o pairs --report invariance.html", "invariance.html"),
-    "reproduce": ("strata reproduce everitt2001 --size 32 -o everitt", "everitt/index.html"),
+    "cost": ("strata cost planes:count=3 --size 32x24 --knob average_count --repeat 1 -o cost; LAB/cost/page.py cost -o cost.html", "cost.html"),
+    "hard-cases": ("strata hard-cases coincident --algorithm dual,painter --profile ideal --depth-format d16,d32f --no-moves -o hard;"
+                   "LAB/hard_cases/whole_page.py hard --strata $(command -v strata) -o hard.html", "hard.html"),
+    "invariance": ("strata invariance planes:gap=8 --size 32x24 --remedy none,bias:4 -o pairs; LAB/invariance/report.py pairs", "pairs/index.html"),
+    "reproduce": ("strata reproduce everitt2001 --size 32 -o everitt; LAB/reproduce/page.py everitt", "everitt/index.html"),
 }
 
 
@@ -73,8 +73,7 @@ def check(driver, name, path):
     broken = driver.execute_script("return [...document.images].filter((i) => !i.complete || i.naturalWidth === 0).map((i) => i.alt)")
     wrong += [f"no picture of {alt}" for alt in broken]
     wrong += check_phone(driver)
-    if name != "reproduce":  # its pictures are separate files
-        wrong += [f"loaded {what}" for what in pages.loaded(driver)]
+    wrong += [f"loaded {what}" for what in pages.loaded(driver)]
     if not driver.title or not driver.find_elements("tag name", "h1"):
         wrong.append("no title")
     if name != "render":  # report_page.py tests the controls of this page
@@ -90,11 +89,12 @@ def main():
     if pages.skips():
         return pages.SKIPPED
     driver, wrong = pages.browser("--disable-gpu"), []
+    lab = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools", "lab")
     environment = {**os.environ, "PATH": os.path.dirname(strata) + os.pathsep + os.environ["PATH"]}
     try:
         with tempfile.TemporaryDirectory() as folder:
             for name, (line, page) in PAGES.items():
-                subprocess.run(["sh", "-c", line], cwd=folder, env=environment, check=False, stdout=subprocess.DEVNULL)
+                subprocess.run(["sh", "-c", line.replace("LAB/", lab + "/")], cwd=folder, env=environment, check=False, stdout=subprocess.DEVNULL)
                 wrong += check(driver, name, os.path.join(folder, page))
     finally:
         driver.quit()

@@ -1,4 +1,4 @@
-"""Holds the advice of tools/cost/TRANSPARENCY.md to the table above it, and renders a picture by each algorithm that it names.
+"""Holds the advice of tools/lab/cost/transparency/TRANSPARENCY.md to the table above it, and renders a picture by each algorithm that it names.
 
     tests/docs/advice.py build/release
 
@@ -12,7 +12,7 @@ import re
 import subprocess
 import sys
 
-PAGE = pathlib.Path(__file__).resolve().parent.parent.parent / "tools/cost/TRANSPARENCY.md"
+PAGE = pathlib.Path(__file__).resolve().parent.parent.parent / "tools/lab/cost/transparency/TRANSPARENCY.md"
 NUMBERS = {"one": 1, "two": 2}
 UNORDERED = {"linked_list", "linked_list --pixel-nodes 8", "atomic_loop", "hybrid_transparency", "multi_layer", "adaptive", "moments_quantized"}
 

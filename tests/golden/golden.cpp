@@ -81,8 +81,8 @@ Settings parse(int count, char** words) {
 std::string lines(const GoldenScene& scene, const Settings& settings) {
     std::string text;
     for (const pipeline::DeviceProfile& profile : pipeline::builtin_profiles()) {
-        // Profiles with binary32 planes (Mesa's and SwiftShader's) are left out: tools/bench compares the fragments of
-        // Mesa's with Mesa's own.
+        // Profiles with binary32 planes (Mesa's and SwiftShader's) are left out: tools/lab/bench compares the fragments
+        // of Mesa's with Mesa's own.
         if (profile.raster.plane_rule != rasterizer::PlaneRule::exact) continue;
         peeling::RenderOptions options;
         options.width = scene.width;

@@ -17,7 +17,7 @@ import specification
 
 SETS = {"program", "program?", "tests", "tests?", "all?", "headers", "python", "python?"}
 # Packages that only tests and separately labelled tools need.
-NOT_FOR_THE_PROGRAM = {"zsh", "fish", "parallel", "gnuplot-nox", "catch2", "libboost-dev", "libgmp-dev", "libmpfr-dev", "clang", "valgrind", "locales",
+NOT_FOR_THE_PROGRAM = {"zsh", "parallel", "python3-matplotlib", "catch2", "libboost-dev", "libgmp-dev", "libmpfr-dev", "clang", "valgrind", "locales",
                        "libegl-dev", "libgl1-mesa-dri"}
 # Packages by the names with which the program's CMake files find them.
 FOUND_BY = {"TBB": "libtbb-dev", "OpenEXR": "libopenexr-dev", "OpenImageIO": "libopenimageio-dev", "PNG": "libpng-dev", "ZLIB": "zlib1g-dev",

@@ -1,24 +1,19 @@
 #!/usr/bin/env bash
-# Submits a sweep of `strata invariance` as a Slurm job array, a task per shard, and a job that merges the results.
-#   tools/cluster/slurm.sh PLAN FOLDER SHARDS [OPTIONS OF sbatch...]
-# PLAN, FOLDER and the command must be accessible on every node. A requeued task resumes; submit again after a failure: finished cells are not
-# measured again. Prints the number of the merging job.
+# Submits a sweep as a Slurm job array, a task per shard, and a job after it that joins the shards.
+#   tools/cluster/slurm.sh FOLDER SHARDS [OPTIONS OF sbatch...] -- COMMAND...
+# COMMAND as for parallel.sh. Its files, FOLDER and the program must be accessible on every node. A requeued task measures its shard again. Prints
+# the number of the joining job.
 set -euo pipefail
 fail() { echo "tools/cluster/slurm.sh: $*" >&2; exit 2; }
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/sweep.sh"
 
-[ $# -ge 3 ] || fail "expected PLAN FOLDER SHARDS, found $# arguments"
-plan=$(realpath "$1") folder=$(realpath -m "$2") shards=$3
-shift 3
-strata=${STRATA:-$(cd "$(dirname "$0")/../.." && pwd)/build/release/strata}
-[ -x "$strata" ] || fail "$strata: expected the built command (STRATA names another)"
-[ -r "$plan" ] || fail "$plan: expected a plan, found no readable file"
-[[ $shards =~ ^[1-9][0-9]*$ ]] || fail "SHARDS: expected a whole number from 1, found '$shards'"
 command -v sbatch >/dev/null || fail "expected Slurm's sbatch, found none"
-
+folder=$(realpath -m "$folder")
 mkdir -p "$folder"
-sweep=$(printf '%q ' "$strata" invariance --plan "$plan" -o "$folder")
+sweep=$(printf '%q ' "${command[@]}" -o "$folder")
 log=(--output "$folder/slurm.%A_%a.log")
-array=$(sbatch --parsable --requeue --job-name strata-shards "${log[@]}" --array "1-$shards" "$@" \
-    --wrap "$sweep --threads \${SLURM_CPUS_PER_TASK:-1} --shard \$SLURM_ARRAY_TASK_ID/$shards")
-sbatch --parsable --job-name strata-merge --output "$folder/slurm.merge.log" --dependency "afterok:${array%%;*}" "$@" \
-    --wrap "$sweep --merge $shards"
+array=$(sbatch --parsable --requeue --job-name strata-shards "${log[@]}" --array "1-$shards" "${options[@]}" \
+    --wrap "$sweep --shard \$SLURM_ARRAY_TASK_ID/$shards")
+sbatch --parsable --job-name strata-join --output "$folder/slurm.join.log" --dependency "afterany:${array%%;*}" "${options[@]}" \
+    --wrap "$(printf '%q ' "$here/join.py" "$folder" "$shards")"

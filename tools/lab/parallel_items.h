@@ -2,7 +2,7 @@
 //
 // Rule     body(i) must only write to data of item i. If several items fail, the exception of the first in the list is
 //          thrown, whatever the order of completion.
-// Tests    tests/tools/hardware_check_test.cpp
+// Tests    tests/tools/lab/hardware_check/hardware_check_test.cpp
 #pragma once
 #include <atomic>
 #include <exception>

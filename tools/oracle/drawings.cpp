@@ -114,6 +114,13 @@ pipeline::Image as_shown(const Picture& picture, const std::string& name) {
         for (int x = 0; x < target.width; ++x) {
             const std::size_t i = image.index(x, y) / 4;
             const int last = target.channels - 1;
+            if (target.channels == 2 && target.code != Code::integer) {  // min-max depths: (-near, far)
+                const double near = -target.value_at(i, 0), far = target.value_at(i, 1);
+                const bool is_cleared = far < near;  // nothing is left to peel: black
+                put(image, x, y,
+                    {is_cleared ? 0 : nearest(Code::unorm8, near), is_cleared ? 0 : nearest(Code::unorm8, far), 0});
+                continue;
+            }
             put(image, x, y,
                 {code(i, 0), code(i, target.channels < 3 ? 0 : 1),
                  code(i, std::min(target.channels < 3 ? 0 : 2, last))});

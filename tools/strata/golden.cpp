@@ -46,7 +46,8 @@ int check(const std::string& path, Simd simd) {
 }
 
 // Algorithms that the profile cannot run are left out; their reasons are reported.
-oracle::Golden golden_of(RunOptions& options) {
+// `progress` gets the share of the algorithms that were tried.
+oracle::Golden golden_of(RunOptions& options, const std::function<void(double share)>& progress) {
     Session session = open_session(options);
     check_literal_memory(options, session);
     oracle::Golden golden{.scene = std::move(session.scene),
@@ -59,7 +60,9 @@ oracle::Golden golden_of(RunOptions& options) {
     peeling::RenderOptions tried = golden.options;
     tried.audit = false;
     peeling::SampledRenderer renderer{golden.scene.list, session.view, golden.profile, tried, golden.sampling};
-    for (const peeling::Algorithm* algorithm : options.algorithms) {
+    for (std::size_t i = 0; i < options.algorithms.size(); ++i) {
+        progress(static_cast<double>(i) / static_cast<double>(options.algorithms.size()));
+        const peeling::Algorithm* const algorithm = options.algorithms[i];
         const peeling::RenderResult result = renderer.render(*algorithm);
         if (result.outcome == peeling::Outcome::done)
             golden.algorithms.push_back(algorithm);
@@ -115,9 +118,14 @@ int golden(GoldenOptions& options) {
     scenes::check_new_folder(options.run.output);
     if (options.suite) return write_suite(options);
     complete(options.run);
-    const oracle::Golden made = golden_of(options.run);
+    // To try whether an algorithm runs takes far less time than to write its passes.
+    constexpr double tried = 0.2;
+    std::optional<Progress> bar("pack");
+    const oracle::Golden made = golden_of(options.run, [&](double share) { bar->show(tried * share); });
     if (made.algorithms.empty()) return 2;
-    oracle::write_pack(made, options.run.output, options.copies());
+    oracle::write_pack(made, options.run.output, options.copies(),
+                       [&](double share) { bar->show(tried + (1 - tried) * share); });
+    bar.reset();
     say_written(options.run.output,
                 fmt::format("{} algorithm{}", made.algorithms.size(), made.algorithms.size() == 1 ? "" : "s"));
     return 0;

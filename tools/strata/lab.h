@@ -4,7 +4,7 @@
 //          ...` becomes `strata-lab cost ...` in the same process, with the file strata-lab from strata's own folder.
 //          If strata-lab exists, it also writes the completions and manual pages, which need every option of every
 //          command.
-// Tests    tests/tools/lab_test.cpp
+// Tests    tests/tools/lab/lab_test.cpp
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>

@@ -4,7 +4,7 @@
 // Rule     Messages go to standard error, one line each. A line over 3,000 bytes is shortened to its beginning and end.
 //          Control characters from a file or the command line never reach a terminal. Colours are used only on a
 //          terminal unless --color overrides that; NO_COLOR (not empty) and TERM=dumb disable them.
-// Tests    tests/tools/messages_test.cpp
+// Tests    tests/tools/strata/program/messages_test.cpp
 #pragma once
 #include <CLI/CLI.hpp>
 #include <cstdint>

@@ -3,7 +3,7 @@
 //
 // Rule     A failure prints one line "strata: ..." on standard error. Exit status: 2 for bad input or usage, 3 if the
 //          system failed, 130 if interrupted.
-// Tests    tests/tools/errors_test.cpp, interrupt_test.cpp
+// Tests    tests/tools/strata/program/errors_test.cpp, interrupt_test.cpp
 #include "tools/strata/program.h"
 
 #include <fcntl.h>
@@ -110,7 +110,7 @@ std::string message(const CLI::ParseError& error, CLI::App& root) {
     if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
         const std::string extra = root.remaining(true).front();
         if (!extra.starts_with('-') && &app == &root) return unknown_command(extra, root);
-        if (!extra.starts_with('-')) return "strata " + app.get_name() + " has no use for the argument '" + extra + "'";
+        if (!extra.starts_with('-')) return "strata " + app.get_name() + ": unexpected argument '" + extra + "'";
         const std::string option = extra.substr(0, extra.find('='));
         return "strata " + app.get_name() + " has no option " + found_but_near(option, options_of(app));
     }

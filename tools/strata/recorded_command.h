@@ -3,7 +3,7 @@
 // Rule     A picture file is untrusted. Its command may only choose what is rendered: the scene, and the options of
 //          add_picture_options and --map. It cannot name outputs, and its input files are read only from the picture's
 //          folder or from --files-in.
-// Tests    tests/tools/recorded_command_test.cpp
+// Tests    tests/tools/strata/program/recorded_command_test.cpp
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>

@@ -5,8 +5,8 @@
 #include <cctype>
 #include <fstream>
 
-#include "scenes/inside_folder.h"
 #include "scenes/files/read_files.h"
+#include "scenes/inside_folder.h"
 #include "scenes/lfs_pointer.h"
 
 namespace strata::scenes {

@@ -1,5 +1,5 @@
 // scenes/procedural/hard_cases/samples.cpp - what a port with several samples per pixel gets wrong where programs run
-// once a pixel: the depth at the pixel's centre is not that of a sample (tools/invariance/MULTISAMPLING.md). The
+// once a pixel: the depth at the pixel's centre is not that of a sample (tools/lab/multisampling/MULTISAMPLING.md). The
 // answers are those of one sample, at the centre.
 #include "scenes/procedural/hard_cases/build_case.h"
 

@@ -62,7 +62,7 @@ TEST_CASE("ideal computes depth exactly and keeps denormals and has room for eve
     CHECK(p.max_viewport_px == 16384);
 }
 
-// The fragments themselves are compared with Mesa's by tools/bench/side_by_side.py.
+// The fragments themselves are compared with Mesa's by tools/lab/bench/side_by_side.py.
 TEST_CASE("llvmpipe snaps x * (1 / w) to 8 subpixel bits and ties belong to bottom and left edges") {
     const DeviceProfile& p = *find_profile("llvmpipe");
     CHECK(p.raster.subpixel_bits == 8);

@@ -10,6 +10,7 @@
 #include "tools/strata/messages.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/parse.h"
+#include "tools/strata/render/memory.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -69,6 +70,8 @@ std::vector<BenchScene> open_scenes(const BenchOptions& options) {
         BenchScene& scene = scenes.emplace_back(BenchScene{options.run, {}});
         scene.options.scene = name;
         scene.session = open_session(scene.options);
+        for (const peeling::Algorithm* algorithm : options.algorithms)
+            if (algorithm != nullptr) check_memory(scene.options, scene.session, *algorithm);
     }
     return scenes;
 }
@@ -128,12 +131,12 @@ Command add_bench(CLI::App& root) {
     add_machine_options(*app, options->run);
     add_order_options(*app, options->run.render);
     add_view_options(*app, options->run);
-    accept_tiled(*add_choices(*app, options->executions, "--execution", executions, values_of(executions),
-                              "ways of running (default replay)"),
-                 options->run);
+    add_choices(*app, options->executions, "--execution", executions, values_of(executions),
+                "ways of running (default replay)");
     add_choices(*app, options->simds, "--simd", simds, available_simd(), "instruction sets (default best)");
     add_choices(*app, options->effects, "--effects", effects, values_of(effects),
                 "needed, all, or needed,all (default needed)");
+    add_memory_option(*app, options->run);
     add_resource_options(*app, options->run);
     add_option(*app, options->repetitions.timed,
                {"--repeat", "N", "runs of each job (default 5)", "a whole number from 1"}, to_positive);

@@ -37,15 +37,12 @@ ordered_json words_of(const BenchJob& job) {
             {"profile", job.scene->session.profile.name}};
 }
 
-// One line that is unique for a job; a baseline is looked up by it. In older documents the execution `tiled` means
-// replay without memory; the memory is omitted if it is the default.
+// One line that is unique for a job; a baseline is looked up by it. The memory is omitted if it is the default.
 std::string name_of_words(const ordered_json& words) {
-    const bool is_tiled = words.at("execution") == "tiled";
-    const std::uint64_t memory =
-        is_tiled ? 0 : words.value("fragment_memory", peeling::RenderOptions{}.fragment_memory);
+    const std::uint64_t memory = words.at("fragment_memory");
     std::string name;
     for (const char* key : {"scene", "algorithm", "execution", "simd", "effects", "size", "profile"})
-        name += (is_tiled && key == std::string_view("execution") ? "replay" : words.at(key).get<std::string>()) + ' ';
+        name += words.at(key).get<std::string>() + ' ';
     name += fmt::format("threads={}", words.at("threads").get<int>());
     return memory == peeling::RenderOptions{}.fragment_memory ? name
                                                               : name + fmt::format(" fragment_memory={}", memory);

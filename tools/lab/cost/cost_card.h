@@ -4,7 +4,7 @@
 //          full-screen pass has one per pixel), and bytes between stages and targets, each divided by the card's rate.
 //          The three are assumed to overlap perfectly, so it is a lower bound.
 // Source   scenes/reference/reports.md 10.3 lists every rate with its source and evidence mark.
-// Tests    tests/tools/cost_card_test.cpp
+// Tests    tests/tools/lab/cost/cost_card_test.cpp
 #pragma once
 #include <cstdint>
 #include <optional>

@@ -4,7 +4,7 @@
 // Rule     scenes/reference/reports.md 10.1 lists the knobs and their values. Depth format and path, and algorithm or
 //          number of peels and colour format, are combined. A feature that a knob needs and the profile lacks is
 //          enabled in a copy of the profile, and reported. Cells are numbered scene by scene, knob by knob.
-// Tests    tests/tools/cost_test.cpp
+// Tests    tests/tools/lab/cost/cost_test.cpp
 #pragma once
 #include <optional>
 #include <string>

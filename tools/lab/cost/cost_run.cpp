@@ -28,6 +28,17 @@ using peeling::RenderResult;
                                  *cell.chain);
 }
 
+[[nodiscard]] std::optional<peeling::RealImage> sorted_picture(const CostScene& scene, const CostCell& cell) {
+    CostCell sorted = cell;
+    sorted.algorithm = peeling::find_algorithm("a_buffer");
+    sorted.options.termination = scene.base.options.termination;
+    sorted.options.max_passes = scene.base.options.max_passes;
+    sorted.options.audit = false;
+    const RenderResult result = rendered(scene.session, sorted, sorted.options);
+    if (result.refusal) return std::nullopt;
+    return peeling::real_image(result.frame.color);
+}
+
 // A full-screen pass has one fragment per pixel.
 [[nodiscard]] CardWork work_of(const CostScene& scene, const CostCell& cell, const RenderResult& result) {
     const auto& passes = result.frame.passes;
@@ -110,6 +121,7 @@ CostResult run_cell(const CostScene& scene, const CostCell& cell) {
     }
     const peeling::RealImage picture = peeling::real_image(result.frame.color);
     found.error = peeling::real_error(picture, scene.truth);
+    if (const auto sorted = sorted_picture(scene, cell)) found.sorted_rmse = peeling::real_error(picture, *sorted).rmse;
     found.from_default = peeling::real_error(picture, scene.pictured).pixels;
     found.order_errors = result.audit.order_errors;
     found.layers = result.audit.layers_max;

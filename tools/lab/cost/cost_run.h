@@ -7,7 +7,7 @@
 //          ratio to the default's of the same round. A cell has five rounds, and up to 25 while they take less than 2 s
 //          in total: other processes interrupt for milliseconds, which averages out in a long run but not in a short
 //          one.
-// Tests    tests/tools/cost_test.cpp
+// Tests    tests/tools/lab/cost/cost_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -34,6 +34,9 @@ struct CostScene {
 struct CostResult {
     std::string refusal;  // the message; empty: it ran
     peeling::RealError error;
+    // RMSE from the A-buffer of the cell's device and formats, which sorts the same fragments exactly; empty if the
+    // device refuses the A-buffer.
+    std::optional<double> sorted_rmse;
     double from_default = 0;  // the share of pixels that differ from the default cell's image
     std::optional<std::uint64_t> order_errors;
     int layers = 0;

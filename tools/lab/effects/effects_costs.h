@@ -6,7 +6,7 @@
 //          same way. The cost of a value that passes need is the difference between two traversals of all fragments,
 //          one with it and one without, times the number of those passes. Effects are timed without replay, because
 //          Effects::all does not use it.
-// Tests    tests/tools/effects_test.cpp
+// Tests    tests/tools/lab/effects/effects_test.cpp
 #pragma once
 #include "tools/lab/bench/spread.h"
 

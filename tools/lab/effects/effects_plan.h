@@ -4,7 +4,7 @@
 // Rule     The passes are logged, with the pipeline's decisions (pipeline/frame/effects.h), in a small literal run
 //          of the same scene and view; their number and their fragments are those of the whole run in literal
 //          execution.
-// Tests    tests/tools/effects_test.cpp
+// Tests    tests/tools/lab/effects/effects_test.cpp
 #pragma once
 #include <optional>
 #include <string>

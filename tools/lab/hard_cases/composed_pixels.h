@@ -2,7 +2,7 @@
 //
 // Rule     Pixels are in the frame's order. A pixel without visible fragments and without composited layers is omitted,
 //          so the cost does not depend on the frame's size.
-// Tests    tests/tools/hard_cases/composited_test.cpp
+// Tests    tests/tools/lab/hard_cases/composited_test.cpp
 #pragma once
 #include <cstddef>
 #include <cstdint>

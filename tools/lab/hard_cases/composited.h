@@ -6,7 +6,7 @@
 //          once; one that drops or mixes them, every key once. Fragments discarded by an alpha test are not expected.
 //          All numbers are counted from traces and captured fragments, independently of the audit, so that each checks
 //          the other.
-// Tests    tests/tools/hard_cases/composited_test.cpp
+// Tests    tests/tools/lab/hard_cases/composited_test.cpp
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -8,11 +8,11 @@
 #include "scenes/files/profile_json.h"
 #include "scenes/procedural/hard_cases/hard_case.h"
 #include "tools/lab/commands.h"
-#include "tools/lab/hard_cases/hard_page.h"
+#include "tools/lab/hard_cases/hard_sweep.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/options.h"
+#include "tools/strata/render/memory.h"
 #include "tools/strata/render/run.h"
-#include "tools/strata/report/plain_page.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -22,13 +22,13 @@ namespace {
 using nlohmann::ordered_json;
 
 struct HardOptions {
+    RunOptions run;  // --max-memory
     std::vector<std::string> names;
-    std::string folder, report;
+    std::string folder;
     std::vector<std::string> profiles{"geforce3", "geforce8", "ideal", "llvmpipe"};
     std::vector<std::string> formats{"d16", "d24", "d32f"};
     std::vector<std::string> algorithms;  // empty: all
     Shard shard;
-    int merge = 0;
     bool list = false, json = false, dry_run = false, moves = true;
 };
 
@@ -72,7 +72,7 @@ std::vector<const scenes::HardCase*> cases_of(const std::vector<std::string>& na
     return cases;
 }
 
-HardSweep sweep_of(const HardOptions& options) {
+HardSweep chosen(const HardOptions& options) {
     HardSweep sweep{.cases = cases_of(options.names), .profiles = {}, .formats = {}, .algorithms = {}};
     for (const std::string& name : options.profiles) sweep.profiles.push_back(scenes::load_profile(name));
     for (const std::string& name : options.formats)
@@ -86,26 +86,32 @@ HardSweep sweep_of(const HardOptions& options) {
     return sweep;
 }
 
+// With --max-memory: refuses all cases if one of them needs more.
+void check_memory_of(const RunOptions& options, const HardSweep& sweep) {
+    if (!options.max_memory) return;
+    for (const scenes::HardCase* hard : sweep.cases)
+        for (const pipeline::DeviceProfile& profile : sweep.profiles) {
+            if (hard->depth_near > hard->depth_far) continue;  // every frame is refused
+            RunOptions run = options;
+            run.scene = "hard:case=" + std::string{hard->name};
+            run.profile = profile.name;
+            run.render = hard_options(*hard, {});
+            const Session session = open_session(run);
+            for (const peeling::Algorithm* algorithm : sweep.algorithms) check_memory(run, session, *algorithm);
+        }
+}
+
 int hard_cases_command(const HardOptions& options) {
-    check_outputs({{"--report", options.report, {".html"}}});
     if (options.list) return list_cases(options);
     if (options.folder.empty() && !options.dry_run)
         throw CLI::ValidationError("-o is missing: the folder for the results");
-    if (options.merge > 0 && options.shard.count > 1) throw CLI::ValidationError("--merge excludes --shard");
-    const HardSweep sweep = sweep_of(options);
-    Work work = hard_work(sweep);
-    work.report = options.report;
-    bool failed = false;
-    // A shard has only part of the lines of the page, which --merge writes.
-    work.summary = [&](const Lines& lines) {
-        write_page(sweep, lines, options.folder);
-        failed = has_failed(lines);
-        return options.json ? ordered_json(lines).dump(2) + '\n' : summary(sweep, lines);
-    };
-    if (options.dry_run) return dry_run(work, options.shard), 0;
-    const int status = options.merge > 0 ? merge_shards(work, options.folder, static_cast<std::size_t>(options.merge))
-                                         : run_sweep(work, options.folder, options.shard);
-    return failed ? 1 : status;
+    const HardSweep cases = chosen(options);
+    check_memory_of(options.run, cases);
+    Sweep sweep = sweep_of(cases);
+    if (options.json)
+        sweep.summary = [](const Lines& lines, const Lines&) { return ordered_json(lines).dump(2) + '\n'; };
+    if (options.dry_run) return dry_run(sweep, options.shard), 0;
+    return run_sweep(sweep, options.folder, options.shard);
 }
 
 // Comma-separated values, each of them a name in `known`.
@@ -132,8 +138,7 @@ Command add_hard_cases(CLI::App& root) {
     const auto options = std::make_shared<HardOptions>();
     app->add_option("NAME", options->names, "hard cases (default all)")->type_name("");
     add_path(*app, options->folder,
-             {"-o,--output", "FOLDER", "a folder: results.jsonl, results.csv, timings.jsonl, RESULTS.md, pictures/",
-              "a folder"});
+             {"-o,--output", "FOLDER", "folder for results.jsonl, results.csv and timings.jsonl", "a folder"});
     app->add_flag("--list", options->list, "name the cases and say what is hard about each");
     app->add_flag("--json", options->json, "one JSON document instead of the table");
     std::vector<std::string> profiles;
@@ -142,15 +147,11 @@ Command add_hard_cases(CLI::App& root) {
     add_names(*app, "--depth-format", options->formats, names_of(depth_formats),
               "depth formats (default d16, d24 and d32f)");
     add_names(*app, "--algorithm", options->algorithms, algorithm_names(), "algorithms (default all)");
-    add_report_option(*app, options->report);
-    add_option(*app, options->shard,
-               {"--shard", "I/N", "only the cells I, I + N, ... (from 1)", "I/N with I from 1 to N"}, to_shard);
-    add_option(*app, options->merge, {"--merge", "N", "put the results of N shards together", "a whole number from 1"},
-               to_positive);
+    add_shard_option(*app, options->shard);
+    add_memory_option(*app, options->run);
     app->add_flag_callback(
-        "--no-moves", [options] { options->moves = false; },
-        "neither stability nor flicker of the cases that name them");
-    app->add_flag("--dry-run", options->dry_run, "print the cells and how long they would take");
+        "--no-moves", [options] { options->moves = false; }, "do not measure stability and flicker");
+    app->add_flag("--dry-run", options->dry_run, "print the rows and how long they would take, without measuring them");
     app->footer(
         "Examples:\n"
         "  strata hard-cases --list\n"

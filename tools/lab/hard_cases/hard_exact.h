@@ -10,7 +10,7 @@
 //          bounded to first order, times 5/4. The error of binary64 itself is below 2^-48 of depth and 2^-40 pixel,
 //          which every slack includes. A triangle has the colour of its first corner: in these cases all corners of a
 //          triangle have the same colour.
-// Tests    tests/tools/hard_cases/hard_exact_test.cpp: rational arithmetic
+// Tests    tests/tools/lab/hard_cases/hard_exact_test.cpp: rational arithmetic
 #pragma once
 #include <array>
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 #include "peeling/truth/real_triangle.h"
 #include "scenes/procedural/hard_cases/hard_case.h"
-#include "tools/lab/hard_cases/hard_result.h"
+#include "tools/lab/hard_cases/moves/hard_result.h"
 
 namespace strata::tools {
 

@@ -13,7 +13,7 @@
 //                      than exact geometry, or orders fragments of one key by submission, with an effect on the image;
 //                      or the algorithm guarantees no order, and its image is beyond the bound
 //            stable    none of these
-// Tests    tests/tools/hard_cases/hard_run_test.cpp
+// Tests    tests/tools/lab/hard_cases/hard_run_test.cpp
 #pragma once
 #include <array>
 #include <memory>

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <filesystem>
 #include <map>
 #include <optional>
 
@@ -60,13 +59,6 @@ ordered_json faults_of(const std::vector<pipeline::Diagnostic>& diagnostics) {
     return faults;
 }
 
-std::vector<std::string> hard_keys() {
-    return {"cell",    "case",       "profile", "depth",       "algorithm",  "outcome",
-            "refusal", "verdict",    "reasons", "fragments",   "difference", "difference_at_ties",
-            "bound",   "nan_values", "unlike",  "diagnostics", "digest",     "stability",
-            "flicker"};
-}
-
 void add_moved_columns(std::vector<std::string>& columns) {
     columns.emplace_back("/stability/verdict");
     for (const MoveSize size : move_sizes)
@@ -106,7 +98,7 @@ std::optional<MovedRow> moved_row(const HardSweep& sweep, const HardCell& cell, 
     return cache.moved->run(*cell.profile, cell.format, *cell.algorithm, row);
 }
 
-MeasuredCell hard_measured(const HardSweep& sweep, std::size_t number, HardCache& cache) {
+MeasuredRow hard_measured(const HardSweep& sweep, std::size_t number, HardCache& cache) {
     const auto start = std::chrono::steady_clock::now();
     const HardCell cell = hard_cell(sweep, number);
     if (!cache.machine || cache.group != cell.group) {
@@ -143,23 +135,16 @@ ordered_json to_line(const HardSweep& sweep, std::size_t number, const HardRow& 
     return line;
 }
 
-Work hard_work(const HardSweep& sweep) {
+Sweep sweep_of(const HardSweep& sweep) {
     return {.name = "hard cases",
-            .cells = sweep.cases.size() * sweep.profiles.size() * sweep.formats.size() * sweep.algorithms.size(),
+            .rows = sweep.cases.size() * sweep.profiles.size() * sweep.formats.size() * sweep.algorithms.size(),
             .description = [&sweep](std::size_t i) { return hard_description(sweep, i); },
-            .keys = hard_keys(),
             .measure = [&sweep, cache = std::make_shared<HardCache>()](
                            std::size_t i) { return hard_measured(sweep, i, *cache); },
             .csv = [](const Lines& lines) { return csv_of_columns(hard_columns(), lines); },
-            .summary = [&sweep](const Lines& lines) { return summary(sweep, lines); },
+            .summary = [&sweep](const Lines& lines, const Lines&) { return summary(sweep, lines); },
             .timing_class = [&sweep](std::size_t i) { return std::string{hard_cell(sweep, i).hard->name}; },
-            .findings = [&sweep](const Lines& lines) { return findings(sweep, lines); },
-            .caption =
-                [](const std::string& name, const Lines&) {
-                    return "The exact picture of " + std::filesystem::path(name).stem().string() +
-                           ": the A-buffer of the profile ideal; small frames enlarged, of large ones the brightest of "
-                           "each block";
-                }};
+            .has_failed = has_failed};
 }
 
 namespace {
@@ -174,7 +159,7 @@ std::string failure_of(const ordered_json& line, const std::string& word, const 
                                    line["algorithm"].get<std::string>(), line["profile"].get<std::string>(),
                                    line["depth"].get<std::string>());
     for (const auto& reason : reasons) text += " " + reason.get<std::string>() + ";";
-    text.pop_back();
+    text.back() = '\n';
     return text;
 }
 
@@ -186,7 +171,7 @@ bool has_failed(const Lines& lines) {
     });
 }
 
-Table summary_table(const HardSweep& sweep, const Lines& lines) {
+std::string summary(const HardSweep& sweep, const Lines& lines) {
     std::map<std::string, std::map<std::string, int>> counts;
     for (const ordered_json& line : lines)
         ++counts[line["case"].get<std::string>()][line["verdict"].get<std::string>()];
@@ -201,37 +186,12 @@ Table summary_table(const HardSweep& sweep, const Lines& lines) {
             cells.push_back(fmt::format("{}", counts[name][std::string{name_of(verdict)}]));
         table.rows.push_back(std::move(cells));
     }
-    return table;
-}
-
-std::vector<std::string> failures(const Lines& lines) {
-    std::vector<std::string> messages;
+    std::string text = to_text(table);
     for (const ordered_json& line : lines) {
-        if (line["verdict"] == name_of(HardVerdict::failed))
-            messages.push_back(failure_of(line, "failed", line["reasons"]));
-        if (is_unstable(line)) messages.push_back(failure_of(line, "unstable", line["stability"]["reasons"]));
+        if (line["verdict"] == name_of(HardVerdict::failed)) text += failure_of(line, "failed", line["reasons"]);
+        if (is_unstable(line)) text += failure_of(line, "unstable", line["stability"]["reasons"]);
     }
-    return messages;
-}
-
-std::string summary(const HardSweep& sweep, const Lines& lines) {
-    std::string text = to_text(summary_table(sweep, lines));
-    for (const std::string& message : failures(lines)) text += message + '\n';
     return text;
-}
-
-Findings findings(const HardSweep& sweep, const Lines& lines) {
-    std::map<std::string, int> counts;
-    for (const ordered_json& line : lines) ++counts[line["verdict"].get<std::string>()];
-    std::string verdicts;
-    for (const HardVerdict verdict : hard_verdicts)
-        if (const int count = counts[std::string{name_of(verdict)}]; count > 0)
-            verdicts += fmt::format("{}{}: {}", verdicts.empty() ? "" : ", ", name_of(verdict), count);
-    const std::string message =
-        fmt::format("{} scene{} in {} combinations of algorithm, device and depth format; {}", sweep.cases.size(),
-                    sweep.cases.size() == 1 ? "" : "s", lines.size(), verdicts);
-    return {message + ".", summary_table(sweep, lines),
-            "How often a scene came out stable, degrades, or breaks as the hardware did", failures(lines)};
 }
 
 }  // namespace strata::tools

@@ -1,17 +1,17 @@
-// tools/lab/hard_cases/hard_sweep.h - the work of a sweep: every selected hard case with every algorithm on every
-// device and depth format.
+// tools/lab/hard_cases/hard_sweep.h - the sweep of hard cases: every selected case by every algorithm on every device
+// and depth format.
 //
-// Rule     A cell is a combination, in the order case, profile, depth format, algorithm; the last changes fastest. A
-//          line has every key; values that a refused combination does not have are null. Lines do not depend on
-//          threads, shards or interruptions (sweep.h).
-// Tests    tests/tools/hard_cases/hard_sweep_test.cpp
+// Rule     A row is a combination, in the order case, profile, depth format, algorithm; the last changes fastest. A
+// line
+//          has every key; values that a refused combination does not have are null.
+// Tests    tests/tools/lab/hard_cases/hard_sweep_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "tools/lab/hard_cases/hard_moved.h"
+#include "tools/lab/hard_cases/moves/hard_moved.h"
 #include "tools/lab/sweep/sweep.h"
 
 namespace strata::tools {
@@ -28,11 +28,9 @@ struct HardSweep {
 [[nodiscard]] nlohmann::ordered_json to_line(const HardSweep& sweep, std::size_t number, const HardRow& row,
                                              const std::optional<MovedRow>& moved = {});
 
-// Consecutive cells share the preparation of a case, profile and format. `sweep` must outlive the result.
-[[nodiscard]] Work hard_work(const HardSweep& sweep);
+// Consecutive rows share the preparation of a case, profile and format. `sweep` must outlive the result.
+[[nodiscard]] Sweep sweep_of(const HardSweep& sweep);
 
-// The results for a page: the counts of each verdict, by case, and every combination that failed or is unstable.
-[[nodiscard]] Findings findings(const HardSweep& sweep, const Lines& lines);
 // One row per case with the number of its combinations per verdict; then every combination that failed or is unstable.
 [[nodiscard]] std::string summary(const HardSweep& sweep, const Lines& lines);
 // True if a line is failed or unstable.

@@ -5,7 +5,7 @@
 //          equal codes does not change the truth. On 8-bit targets the sum is clamped to 0 and 1.
 // Numbers  Depths that round to the same binary32 have no order here: such a pixel is counted as one with ties. Depths
 //          more than 2^-24 apart never do, because binary32 has no larger steps below 1.
-// Tests    tests/tools/hard_cases/hard_run_test.cpp
+// Tests    tests/tools/lab/hard_cases/hard_run_test.cpp
 #pragma once
 #include <array>
 #include <compare>

@@ -5,7 +5,7 @@
 //          the images that the tests loaded. Every picture is drawn according to its name and compared outside its
 //          labels. Captures that are not modelled are listed, and never counted as passed. Exit status 1 if a picture
 //          is outside its bound.
-// Tests    tests/tools/hardware_check_test.cpp, tests/tools/hardware_check/suites_test.cpp
+// Tests    tests/tools/lab/hardware_check/hardware_check_test.cpp, tests/tools/lab/hardware_check/suites_test.cpp
 #include <malloc.h>
 
 #include <algorithm>
@@ -16,7 +16,6 @@
 #include "scenes/files/profile_json.h"
 #include "tools/lab/commands.h"
 #include "tools/lab/hardware_check/hardware_hypotheses.h"
-#include "tools/lab/hardware_check/hardware_page.h"
 #include "tools/lab/hardware_check/hardware_report.h"
 #include "tools/lab/parallel_items.h"
 #include "tools/strata/options/names.h"
@@ -31,9 +30,9 @@ namespace {
 namespace hc = hardware_check;
 namespace fs = std::filesystem;
 
-// The command line. Empty texts: all suites, no folder of differences, no page.
+// The command line. Empty texts: all suites, no folder of differences.
 struct Options {
-    std::string folder, suite, profile = "geforce3", output, report;
+    std::string folder, suite, profile = "geforce3", output;
     bool json = false, hypotheses = false, digests = false;
 };
 
@@ -83,8 +82,6 @@ std::vector<CheckedPicture> check_all(const std::vector<Capture>& captures, cons
 }
 
 int hardware_check(const Options& options) {
-    check_outputs({{"--report", options.report, {".html"}}});
-    if (options.hypotheses && !options.report.empty()) throw CLI::ValidationError("--report excludes --hypotheses");
     keep_freed_memory();
     const pipeline::DeviceProfile profile = scenes::load_profile(options.profile);
     const std::vector<Capture> captures = find_captures(options);
@@ -100,7 +97,6 @@ int hardware_check(const Options& options) {
     else
         print(options.json ? to_json(checked, profile) : to_text(checked, profile));
     if (!options.output.empty()) write_report(options.output, checked, profile);
-    if (!options.report.empty()) write_page(options.report, page_of(checked, profile));
     return std::all_of(checked.begin(), checked.end(), [](const auto& c) { return c.is_accepted(); }) ? 0 : 1;
 }
 
@@ -116,14 +112,14 @@ Command add_hardware_check(CLI::App& root) {
     app->add_option("--profile", options->profile, "a built-in profile or a JSON file")
         ->capture_default_str()
         ->type_name("NAME|FILE");
-    add_path(*app, options->output, {"-o,--output", "DIR", "folder for difference pictures and one page", "a folder"});
-    add_report_option(*app, options->report);
+    add_path(*app, options->output,
+             {"-o,--output", "DIR", "folder for results.json and a picture of every difference", "a folder"});
     app->add_flag("--json", options->json, "one JSON document instead of the tables");
     app->add_flag("--hypotheses", options->hypotheses, "the score of each hypothesis that the profile names");
-    app->add_flag("--digests", options->digests, "the rows of tests/tools/hardware_check/hardware_digests.txt");
+    app->add_flag("--digests", options->digests, "the rows of tests/tools/lab/hardware_check/hardware_digests.txt");
     app->footer(footer("  strata hardware-check captures\n"
                        "  strata hardware-check captures --suite Depth_buffer --hypotheses\n"
-                       "  strata hardware-check captures -o report --report captures.html\n") +
+                       "  strata hardware-check captures -o report\n") +
                 " 1 a picture is outside its bound.");
     return {app, [options] { return hardware_check(*options); }};
 }

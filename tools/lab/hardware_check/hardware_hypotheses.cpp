@@ -11,40 +11,38 @@
 namespace strata::tools {
 
 namespace hc = hardware_check;
-using rasterizer::HypothesisSubject;
 using rasterizer::NamedHypothesis;
+using Subject = rasterizer::HypothesisSubject;
 
 namespace {
 
 // A subject and the heading of its table, in the order of the output.
 struct Titled {
-    HypothesisSubject subject;
+    Subject subject;
     std::string_view title;
 };
-constexpr Titled subjects[] = {{HypothesisSubject::window_depth, "depths that are written"},
-                               {HypothesisSubject::texture_depth, "depths made of r and q, or compared with a texel"},
-                               {HypothesisSubject::color, "vertex colours"},
-                               {HypothesisSubject::coordinates, "texture coordinates"}};
+constexpr Titled subjects[] = {{Subject::window_depth, "depths that are written"},
+                               {Subject::texture_depth, "depths made of r and q, or compared with a texel"},
+                               {Subject::color, "vertex colours"},
+                               {Subject::coordinates, "texture coordinates"}};
 
 // One capture's comparison under every hypothesis; empty if the capture cannot distinguish them.
 using Verdicts = std::vector<hc::Comparison>;
 
-bool has(hc::Subjects set, HypothesisSubject subject) { return (set >> static_cast<unsigned>(subject) & 1) != 0; }
+bool has(hc::Subjects set, Subject subject) { return (set >> static_cast<unsigned>(subject) & 1) != 0; }
 
 // True if a picture of this suite, in this reading, depends on the subject. Depth pictures never depend on colours, nor
 // colours on written depths, whatever the suite's list; and if depths are interpolated without division, depth values
 // do not depend on coordinates.
-bool can_tell(const hc::Suite& suite, hc::CaptureFormat reading, HypothesisSubject subject) {
+bool can_tell(const hc::Suite& suite, hc::CaptureFormat reading, Subject subject) {
     const bool shows_depth = reading == hc::CaptureFormat::depth16 || reading == hc::CaptureFormat::depth24;
-    if (subject == (shows_depth ? HypothesisSubject::color : HypothesisSubject::window_depth)) return false;
-    if (shows_depth && subject == HypothesisSubject::coordinates &&
-        has(suite.determines, HypothesisSubject::window_depth))
-        return false;
+    if (subject == (shows_depth ? Subject::color : Subject::window_depth)) return false;
+    if (shows_depth && subject == Subject::coordinates && has(suite.determines, Subject::window_depth)) return false;
     return has(suite.determines, subject);
 }
 
 // Draws the capture once under each hypothesis, with the rest of the profile as given.
-Verdicts verdicts_of(const Capture& capture, const pipeline::DeviceProfile& profile, HypothesisSubject subject,
+Verdicts verdicts_of(const Capture& capture, const pipeline::DeviceProfile& profile, Subject subject,
                      const std::vector<NamedHypothesis>& hypotheses) {
     const hc::Suite* const suite = hc::find_suite(capture.suite);
     if (suite == nullptr || suite->determines == 0) return {};
@@ -61,7 +59,7 @@ Verdicts verdicts_of(const Capture& capture, const pipeline::DeviceProfile& prof
 }
 
 // The rules as given first, then every value of every undetermined constant of this subject.
-std::vector<NamedHypothesis> hypotheses_on(HypothesisSubject subject, const rasterizer::RasterRules& rules) {
+std::vector<NamedHypothesis> hypotheses_on(Subject subject, const rasterizer::RasterRules& rules) {
     std::vector<NamedHypothesis> chosen = rasterizer::depth_hypotheses(rules);
     const std::vector<NamedHypothesis> others = rasterizer::interpolation_hypotheses(rules);
     // Both lists begin with the rules as given: one of the two is omitted.

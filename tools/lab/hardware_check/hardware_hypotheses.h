@@ -4,7 +4,7 @@
 // Rule     A hypothesis is one value of an undetermined constant. It is scored on the captures of those suites that
 //          depend on its subject (rasterizer::HypothesisSubject): captures of depth compare depths, all others colours.
 //          There is one table per subject; its first row is the unmodified profile on the same captures.
-// Tests    tests/tools/hardware_check_test.cpp
+// Tests    tests/tools/lab/hardware_check/hardware_check_test.cpp
 #pragma once
 #include <string>
 #include <vector>

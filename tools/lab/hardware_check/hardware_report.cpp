@@ -70,34 +70,11 @@ std::vector<SuiteCount> count_suites(const std::vector<CheckedPicture>& checked)
     return suites;
 }
 
-// The table in Markdown, with numbers right-aligned.
-std::string markdown(const Table& table) {
-    const auto row = [](const std::vector<std::string>& cells) {
-        return fmt::format("| {} |\n", fmt::join(cells, " | "));
-    };
-    std::vector<std::string> titles, rules;
-    for (const Column& c : table.columns) {
-        titles.push_back(c.title);
-        rules.emplace_back(c.align == Align::right ? "---:" : "---");
-    }
-    std::string text = row(titles) + row(rules);
-    for (const auto& cells : table.rows) text += row(cells);
-    return text;
-}
-
 // The name of the difference image in the report's folder.
 std::string file_name(const CheckedPicture& p) { return p.capture.suite + "-" + p.capture.name + ".png"; }
 
-// '#' starts a fragment in a link.
-std::string link_to(const std::string& file) {
-    std::string link;
-    for (const char c : file) link += c == '#' ? std::string{"%23"} : std::string{c};
-    return link;
-}
-
 }  // namespace
 
-// Capitals make "OUTSIDE" conspicuous.
 std::string outcome(const CheckedPicture& p) {
     if (!p.is_known) return "unknown";
     if (!p.unmodelled.empty()) return "not modelled";
@@ -190,7 +167,8 @@ std::string to_json(const std::vector<CheckedPicture>& checked, const pipeline::
         pictures.push_back({{"suite", p.capture.suite},
                             {"picture", p.capture.name},
                             {"outcome", outcome(p)},
-                            {"reason", p.unmodelled},
+                            {"detail", detail(p)},
+                            {"difference", p.is_compared() && c.differing > 0 ? ordered_json(file_name(p)) : nullptr},
                             {"compared", c.compared},
                             {"differing", c.differing},
                             {"largest", c.largest},
@@ -216,23 +194,14 @@ std::string digest_rows(const std::vector<CheckedPicture>& checked) {
 void write_report(const std::string& folder, const std::vector<CheckedPicture>& checked,
                   const pipeline::DeviceProfile& profile) {
     std::filesystem::create_directories(folder);
-    std::string page =
-        fmt::format("# The profile {} against captures\n\n{}\n", profile.name, markdown(suite_table(checked)));
     for (const CheckedPicture& p : checked) {
-        if (outcome(p) == "equal" || !p.is_known) continue;
-        if (!p.is_compared()) {
-            page += fmt::format("- {}/{}: not modelled: {}\n", p.capture.suite, p.capture.name, p.unmodelled);
-            continue;
-        }
-        page += fmt::format("- {}/{}: {}, {} of {} pixels off, by at most {}; {}\n", p.capture.suite, p.capture.name,
-                            outcome(p), p.comparison.differing, p.comparison.compared, p.comparison.largest, detail(p));
+        if (!p.is_compared() || outcome(p) == "equal") continue;
         // Drawn again, because keeping every picture would take a megabyte each.
         const hc::Drawing drawing = drawn(p.capture, profile);
         scenes::write_image((std::filesystem::path(folder) / file_name(p)).string(),
                             {.color = hc::difference_picture(*drawing.picture, read_capture(p.capture.path))});
-        page += fmt::format("\n  ![difference](<{}>)\n\n", link_to(file_name(p)));
     }
-    scenes::write_file((std::filesystem::path(folder) / "report.md").string(), page);
+    scenes::write_file((std::filesystem::path(folder) / "results.json").string(), to_json(checked, profile));
 }
 
 }  // namespace strata::tools

@@ -1,11 +1,11 @@
 // tools/lab/hardware_check/hardware_report.h - the result of a hardware check: one line per suite, one per picture,
-// JSON, and a page with images.
+// JSON, and difference images.
 #pragma once
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "tools/hardware_check/compare.h"
+#include "tools/lab/hardware_check/drawing/compare.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -60,7 +60,8 @@ enum class WithDigests : bool { no, yes };
 [[nodiscard]] std::string to_json(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile);
 // Suite, picture, label box and digest of every capture that is equal.
 [[nodiscard]] std::string digest_rows(const std::vector<CheckedPicture>& checked);
-// Writes report.md, and a difference image of every picture that is not equal, into `folder`, which is created.
+// Writes results.json, the document of --json, and a difference image of every picture that is not equal, into
+// `folder`, which is created.
 void write_report(const std::string& folder, const std::vector<CheckedPicture>& checked,
                   const pipeline::DeviceProfile& profile);
 

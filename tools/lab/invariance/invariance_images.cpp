@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "rasterizer/base/input_error.h"
 #include "scenes/files/image_io.h"
 
 namespace strata::tools {
@@ -62,6 +63,9 @@ void write_cell_images(const std::string& folder, std::size_t number, const Cell
     // A cell without errors has no files.
     if (result.measured.refusal || result.measured.errors.total() == 0) return;
     const std::filesystem::path images = std::filesystem::path(folder) / "images";
+    // The folder may come from someone else: a link would lead the pictures elsewhere.
+    if (std::filesystem::is_symlink(images))
+        throw InputError(images.string(), "folder", "a folder in its own place", "a link");
     std::filesystem::create_directories(images);
     const auto path = [&](const char* ending) { return (images / fmt::format("{:04}{}", number, ending)).string(); };
     const Image& picture = result.measured.picture;

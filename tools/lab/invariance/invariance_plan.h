@@ -5,7 +5,7 @@
 //          defaults. Cells are numbered grid by grid, in the keys' own order with the last key fastest, so the order in
 //          a file does not matter; a repeated cell is kept once. The whole plan is checked
 //          before anything runs.
-// Tests    tests/tools/invariance_plan_test.cpp
+// Tests    tests/tools/lab/invariance/invariance_plan_test.cpp
 #pragma once
 #include <map>
 #include <string>

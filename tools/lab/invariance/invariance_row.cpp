@@ -179,15 +179,6 @@ ordered_json to_line(std::size_t number, const Cell& cell, const CellResult& res
     return line;
 }
 
-std::vector<std::string> line_keys() {
-    Cell cell;
-    cell.algorithm = peeling::find_algorithm("dual");  // any algorithm with a name
-    std::vector<std::string> keys;
-    const ordered_json line = to_line(0, cell, {.view = {}, .measured = {}, .refusal = "none"});
-    for (const auto& [key, value] : line.items()) keys.push_back(key);
-    return keys;
-}
-
 std::string csv_header() { return fmt::format("{}\n", fmt::join(columns, ",")); }
 
 std::string to_csv(const ordered_json& line) {

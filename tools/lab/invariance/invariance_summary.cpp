@@ -71,14 +71,6 @@ std::vector<Knob> knobs_of(const Lines& lines, Knobs which) {
     return chosen;
 }
 
-std::string label_of(const ordered_json& line, const std::vector<Knob>& knobs) {
-    std::string label = fmt::format("cell {}", line.at("cell").get<std::size_t>());
-    for (const Knob& knob : knobs)
-        if (const std::string text = knob.text_of(line); !text.empty())
-            label += fmt::format(", {} {}", knob.title, text);
-    return label;
-}
-
 Table summary_table(const Lines& lines) {
     Table table{{{"cell", Align::right}}, {}};
     const std::vector<Knob> knobs = knobs_of(lines, Knobs::varying);
@@ -143,8 +135,7 @@ std::string summary(const Lines& lines, const std::string& folder) {
     const std::string more = lines.size() > most_rows ? fmt::format("and {} more\n", lines.size() - most_rows) : "";
     return summary_text(lines) + '\n' + same_everywhere(lines) + '\n' + to_text(table) + more +
            fmt::format(
-               "All of it: {0}/results.csv and {0}/results.jsonl. A page with plots, {0}/index.html: "
-               "tools/invariance/report.py {0}\n",
+               "Rows: {0}/results.csv, {0}/results.jsonl. Page with plots: tools/lab/invariance/report.py {0}\n",
                folder);
 }
 

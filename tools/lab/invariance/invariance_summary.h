@@ -1,15 +1,15 @@
 // tools/lab/invariance/invariance_summary.h - a summary of a sweep's lines: a sentence, the values that all cells
 // share, and one row per cell.
 //
-// Rule     A row and a label contain every knob whose value is not the same in all lines, so all are different.
-// Tests    tests/tools/invariance_row_test.cpp
+// Rule     A row contains every knob whose value is not the same in all lines, so that all rows are different.
+// Tests    tests/tools/lab/invariance/invariance_row_test.cpp
 #pragma once
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "tools/lab/sweep/journal.h"
+#include "tools/lab/sweep/sweep.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -27,8 +27,6 @@ struct Knob {
 enum class Knobs : std::uint8_t { varying, alike };
 // The knobs whose value is not the same in all lines, or those whose value is.
 [[nodiscard]] std::vector<Knob> knobs_of(const Lines& lines, Knobs which);
-// "cell 3, size 64x48, remedy bias:4".
-[[nodiscard]] std::string label_of(const nlohmann::ordered_json& line, const std::vector<Knob>& knobs);
 
 // One row per cell with every knob that varies.
 [[nodiscard]] Table summary_table(const Lines& lines);

@@ -1,5 +1,5 @@
 // tools/lab/probe/infer.cpp - strata infer: infers the profile of a device from its answers to the probe kit.
-#include "tools/probe/infer.h"
+#include "tools/lab/probe/search/infer.h"
 
 #include <fmt/format.h>
 

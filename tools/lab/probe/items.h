@@ -1,6 +1,6 @@
 // tools/lab/probe/items.h - options that probe and infer share: the scenes, and the y direction.
 #pragma once
-#include "tools/probe/kit.h"
+#include "tools/lab/probe/kit/kit.h"
 #include "tools/strata/options/option.h"
 
 namespace strata::tools {

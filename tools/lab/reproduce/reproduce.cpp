@@ -4,7 +4,7 @@
 
 #include "rasterizer/base/input_error.h"
 #include "tools/lab/commands.h"
-#include "tools/lab/reproduce/reproduce_page.h"
+#include "tools/lab/reproduce/figures.h"
 #include "tools/strata/options/names.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/table.h"
@@ -42,8 +42,8 @@ int reproduce(const ReproduceOptions& options) {
     if (!std::filesystem::is_directory(options.folder))
         throw CLI::ValidationError("-o",
                                    "expected a folder that exists or can be made, found '" + options.folder + "'");
-    write_page(options.folder, page_of(options));
-    print(options.folder + "/index.html\n");
+    write_figures(options.folder, page_of(options));
+    print(options.folder + "/page.json; page: tools/lab/reproduce/page.py " + options.folder + '\n');
     return 0;
 }
 
@@ -57,7 +57,7 @@ Command add_reproduce(CLI::App& root) {
                     "glTF files to run with the built-in scenes (dragon.glb, sponza.glb, a car ...)")
         ->type_name("");
     add_path(*app, options->folder,
-             {"-o,--output", "DIR", "the folder that takes the page; made if it is not there", "a folder"})
+             {"-o,--output", "DIR", "folder for page.json, tables as CSV and pictures", "a folder"})
         ->required();
     add_option(*app, options->size,
                {"--size", "N", "pixels a side of the pictures (default 256)", "a whole number from 1 to 4096"},

@@ -7,7 +7,7 @@
 #include "peeling/registry.h"
 #include "peeling/render.h"
 #include "scenes/camera.h"
-#include "tools/lab/reproduce/reproduce_page.h"
+#include "tools/lab/reproduce/figures.h"
 
 namespace strata::tools {
 

@@ -9,7 +9,7 @@
 #include "peeling/render.h"
 #include "scenes/camera.h"
 #include "tools/lab/bench/spread.h"
-#include "tools/lab/reproduce/reproduce_chart.h"
+#include "tools/lab/reproduce/figures.h"
 #include "tools/strata/progress.h"
 
 namespace strata::tools {
@@ -82,7 +82,7 @@ struct Printed {
 
 // Empty texts for rows that the paper does not have. `iterations` are ours: if they agree no reason is needed.
 Printed printed_of(int slices, const std::string& algorithm, int iterations) {
-    constexpr auto other_times = "times are this machine's, not a GeForce 8800's; passes and fragments are counted";
+    constexpr auto other_times = "times are this computer's, not a GeForce 8800's; passes and fragments are counted";
     constexpr auto counted = "the stencil counts to 128 (E20): ceil(n/128) iterations for n slices, two for the cone";
     const bool is_stencil = algorithm == "coherent_stencil";
     if (slices > 256 && (is_stencil || algorithm == "coherent_blend")) return {"as many passes as for 256", counted};
@@ -126,8 +126,8 @@ std::vector<Measured> run_beams(const ReproduceOptions& options) {
 
 // One curve per algorithm; `value` selects the value of a run.
 template <class Value>
-Chart chart_of(const std::vector<Measured>& runs, const std::string& label, Value value) {
-    Chart chart{"slices", label};
+Chart chart_of(const std::vector<Measured>& runs, const std::string& name, const std::string& label, Value value) {
+    Chart chart{"figure3_" + name, "slices", label};
     for (const std::string algorithm : beam_algorithms) {
         Curve curve{algorithm};
         for (const Measured& m : runs)
@@ -157,12 +157,10 @@ Section beam(const ReproduceOptions& options) {
                                       ratio(double(r.fragments), double(baseline->fragments)),
                                       times_faster(baseline->seconds, r.seconds), printed.figure, printed.why});
     }
-    const auto chart = [&](const std::string& name, const std::string& caption, auto value) {
-        section.pictures.push_back(write_chart(options.folder, name + ".svg", caption, chart_of(runs, caption, value)));
-    };
-    chart("figure3_passes", "geometry passes", [](const Run& r) { return double(r.passes); });
-    chart("figure3_fragments", "fragments of all passes", [](const Run& r) { return double(r.fragments); });
-    chart("figure3_time", "milliseconds on this machine", [](const Run& r) { return 1e3 * r.seconds.median; });
+    section.charts = {
+        chart_of(runs, "passes", "geometry passes", [](const Run& r) { return double(r.passes); }),
+        chart_of(runs, "fragments", "fragments of all passes", [](const Run& r) { return double(r.fragments); }),
+        chart_of(runs, "time", "milliseconds on this computer", [](const Run& r) { return 1e3 * r.seconds.median; })};
     const scenes::Scene scene = scenes::load_scene("volume-beam:slices=64,order=near", {});
     peeling::RenderOptions large = options_for(options, options.size);
     large.alpha = 0.1f;
@@ -237,7 +235,7 @@ void add_rows(const ReproduceOptions& options, const Model& model, const PaperRo
                          speed = layer.seconds.median / r.seconds.median;
             // A difference of up to 5 % is not explained: the printed rates have two digits.
             if (is_paper && std::abs(speed - paper_speed) > 0.05 * paper_speed)
-                why += std::string(why.empty() ? "" : "; ") + "speed: of this machine, where passes cost by fragments";
+                why += std::string(why.empty() ? "" : "; ") + "speed: of this computer, where passes cost by fragments";
             section.sheet.rows.push_back(
                 {model.name, paper.view, order, algorithm, is_paper ? counts(iterations, passes) : "",
                  counts(r.iterations, r.passes), is_paper ? ratio(fps, paper.layer_fps) : "",

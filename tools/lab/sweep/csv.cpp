@@ -18,26 +18,6 @@ std::string csv_field(const ordered_json& value) {
     return quoted;
 }
 
-std::vector<std::vector<std::string>> csv_rows(const std::string& text) {
-    std::vector<std::vector<std::string>> rows{{""}};
-    bool is_quoted = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (c == '"' && is_quoted && i + 1 < text.size() && text[i + 1] == '"')
-            rows.back().back() += text[++i];  // a doubled quotation mark is one mark
-        else if (c == '"')
-            is_quoted = !is_quoted;
-        else if (c == ',' && !is_quoted)
-            rows.back().emplace_back();
-        else if (c == '\n' && !is_quoted)
-            rows.push_back({""});
-        else
-            rows.back().back() += c;
-    }
-    if (rows.back().size() == 1 && rows.back()[0].empty()) rows.pop_back();  // after the end of the last line
-    return rows;
-}
-
 std::string csv_of_columns(const std::vector<std::string>& pointers, const Lines& lines) {
     std::vector<ordered_json::json_pointer> places;
     std::vector<std::string> fields;

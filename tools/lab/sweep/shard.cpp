@@ -4,14 +4,14 @@
 
 #include <filesystem>
 
+#include "tools/strata/options/option.h"
 #include "tools/strata/options/parse.h"
 
 namespace strata::tools {
 
-std::vector<std::size_t> Shard::cells(std::size_t all) const {
+std::vector<std::size_t> Shard::rows(std::size_t all) const {
     std::vector<std::size_t> mine;
-    // Strided instead of blocks: neighbouring cells take about equally long, so that shards end at about the same time.
-    for (std::size_t cell = index - 1; cell < all; cell += count) mine.push_back(cell);
+    for (std::size_t row = index - 1; row < all; row += count) mine.push_back(row);
     return mine;
 }
 
@@ -23,9 +23,17 @@ std::optional<Shard> to_shard(std::string_view text) {
     return Shard{static_cast<std::size_t>(*index), static_cast<std::size_t>(*count)};
 }
 
-std::string shard_file(const std::string& folder, const std::string& stem, const Shard& shard) {
+std::string shard_file(const std::string& folder, const std::string& stem, const std::string& ending,
+                       const Shard& shard) {
     const std::string part = shard.count == 1 ? "" : fmt::format(".{}of{}", shard.index, shard.count);
-    return (std::filesystem::path(folder) / (stem + part + ".jsonl")).string();
+    return (std::filesystem::path(folder) / (stem + part + ending)).string();
+}
+
+void add_shard_option(CLI::App& app, Shard& shard) {
+    add_option(app, shard,
+               {"--shard", "K/N", "measure only the rows K, K + N, ... (tools/cluster joins the shards)",
+                "K/N with K from 1 to N"},
+               to_shard);
 }
 
 }  // namespace strata::tools

@@ -1,63 +1,55 @@
-// tools/lab/sweep/sweep.h - runs the cells of a sweep in order, keeps earlier results, merges shards.
+// tools/lab/sweep/sweep.h - measures the rows of a sweep, or those of one shard, and writes them to a folder.
 //
-// Rule     results.jsonl and results.csv depend on the plan alone: not on threads, shards, interruptions or time.
-//          Times are only in timings.jsonl. One run at a time writes to a shard's files.
-// Tests    tests/tools/invariance_test.cpp
+// Rule     results.jsonl and results.csv have one row for each number. They depend on the command alone: not on
+// threads,
+//          shards or time. Times are only in timings.jsonl. The files are written when all rows are measured, so that
+//          an interrupted process leaves none; tools/cluster repeats the shards that did not end, and joins the others.
+// Tests    tests/tools/lab/sweep/sweep_test.cpp, tests/tools/lab/sweep/cluster_test.py
 #pragma once
 #include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
-#include "tools/lab/sweep/journal.h"
 #include "tools/lab/sweep/shard.h"
-#include "tools/strata/table.h"
 
 namespace strata::tools {
 
-// One measured cell. `line` begins with the cell's description; `timing` is its line of timings.jsonl.
-struct MeasuredCell {
+using Lines = std::vector<nlohmann::ordered_json>;
+
+// A measured row: `line` has at least the keys `outcome`, which is "refused" or another word, and `refusal`, the
+// message. `timing` is its line of timings.jsonl.
+struct MeasuredRow {
     nlohmann::ordered_json line, timing;
     double seconds = 0;
 };
 
-// The text of a page about all lines, above the images and the table of the cells: a sentence, a table with its title,
-// further sentences.
-struct Findings {
-    std::string lead;
-    Table table{};
-    std::string name{};
-    std::vector<std::string> items{};
+struct Sweep {
+    std::string name;  // of the progress bar
+    std::size_t rows = 0;
+    // The settings of a row, for --dry-run.
+    std::function<nlohmann::ordered_json(std::size_t row)> description;
+    // Measures a row, and writes its pictures if it has any.
+    std::function<MeasuredRow(std::size_t row)> measure;
+    // The content of results.csv.
+    std::function<std::string(const Lines& lines)> csv;
+    // The text that is printed; timings[i] belongs to lines[i].
+    std::function<std::string(const Lines& lines, const Lines& timings)> summary;
+    // Rows with the same text are assumed to take equally long, for --dry-run.
+    std::function<std::string(std::size_t row)> timing_class;
+    // True if a row shows a fault, which makes the exit status 1; empty: no row does.
+    std::function<bool(const Lines&)> has_failed{};
 };
 
-// The measurement of a command. Cells are numbered from 0. A line has at least the keys `cell`, its number; `outcome`,
-// which is "refused" or another word; and `refusal`, the message.
-struct Work {
-    // The command's name, for the progress bar.
-    std::string name;
-    std::size_t cells = 0;
-    // All keys that are known before the cell runs, `cell` first.
-    std::function<nlohmann::ordered_json(std::size_t cell)> description;
-    // The keys of a complete line.
-    std::vector<std::string> keys;
-    // Runs a cell, and writes its images if it has any.
-    std::function<MeasuredCell(std::size_t cell)> measure;
-    // The complete results.csv, and the summary printed at the end, from all lines in the order of the cells.
-    std::function<std::string(const Lines&)> csv, summary;
-    // Cells with the same text are assumed to take equally long.
-    std::function<std::string(std::size_t cell)> timing_class;
-    // --report: the file of a page with the findings, the table and the images of the folder; empty: none.
-    std::string report{};
-    std::function<Findings(const Lines&)> findings{};
-    // The caption of an image of the folder, by its name there.
-    std::function<std::string(const std::string& name, const Lines&)> caption{};
-};
+// The value as JSON on one line; bytes that are not UTF-8, which a file name may contain, are replaced.
+[[nodiscard]] std::string json_text(const nlohmann::ordered_json& value);
 
-// Measures the missing cells of the shard. Returns the exit status: 0, or 2 if every cell of the sweep was refused.
-[[nodiscard]] int run_sweep(const Work& work, const std::string& folder, const Shard& shard);
+// Writes the files, unless `folder` is empty. Prints the summary, or, of a shard, where its rows are. Returns the exit
+// status: 0; 1 if has_failed says so; 2 if every row was refused.
+[[nodiscard]] int run_sweep(const Sweep& sweep, const std::string& folder, const Shard& shard);
 
-// Merges the files of `shards` shards: results.jsonl, results.csv, timings.jsonl. InputError if one is incomplete.
-[[nodiscard]] int merge_shards(const Work& work, const std::string& folder, std::size_t shards);
-
-// Prints the shard's cells, one per line, and an estimate of their time: the first cell of each text of `timing_class`
-// is measured now.
-void dry_run(const Work& work, const Shard& shard);
+// Prints the settings of the shard's rows and an estimate of their time, for which it measures the first row of each
+// timing class.
+void dry_run(const Sweep& sweep, const Shard& shard);
 
 }  // namespace strata::tools

@@ -7,7 +7,7 @@
 //
 // Numbers  Bits do not depend on the machine, the number of threads or the instruction set; README.md, "The same bits
 //          everywhere".
-// Tests    tests/tools/library, tests/tools/install_test.cmake
+// Tests    tests/tools/library, tests/tools/package/install_test.cmake
 #pragma once
 #include "strata/compare.h"
 #include "strata/diagnose.h"

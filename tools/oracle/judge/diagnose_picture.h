@@ -5,7 +5,7 @@
 //          that is right by its layers is right, even if a mistake has the same picture: `strata compare` says so, too.
 //          Where no emulation gives the picture, the layers are asked whatever the algorithm is: a finding of theirs
 //          is the finding, and their leads are shown.
-// Tests    tests/tools/diagnose_command_test.cpp, tests/tools/library/diagnose_test.cpp
+// Tests    tests/tools/strata/diagnose/diagnose_command_test.cpp, tests/tools/library/diagnose_test.cpp
 #pragma once
 #include <memory>
 #include <span>

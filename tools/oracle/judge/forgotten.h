@@ -5,7 +5,7 @@
 //          the one given, the scene is judged with 1, 2, 4 and 8 samples per pixel, with either origin, and moved by
 //          half a pixel. What makes the picture right is reported as such. Otherwise hints are reported: another
 //          background; wrong pixels at edges between their neighbours' colours; a picture that agrees almost nowhere.
-// Tests    tests/tools/forgotten_test.cpp
+// Tests    tests/tools/strata/compare/forgotten_test.cpp
 #pragma once
 #include <string>
 #include <vector>

@@ -4,7 +4,7 @@
 // Rule     The picture is judged by the given rules; if it is wrong, by the others of other_rules.h. The first that it
 //          is right by is the verdict's. Of a file with straight colours both forms are judged, unless the form is
 //          stated.
-// Tests    tests/tools/compare_samples_test.cpp
+// Tests    tests/tools/strata/compare/compare_samples_test.cpp
 #pragma once
 #include <span>
 #include <string>

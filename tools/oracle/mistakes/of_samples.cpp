@@ -1,7 +1,7 @@
 // tools/oracle/mistakes/of_samples.cpp - mistakes with the samples of a pixel: which of them programs run for and load.
 //
 // Rule     None is applicable to a frame of one sample per pixel.
-// Source   pipeline/reference/fragment-stages.md 13.5; tools/invariance/MULTISAMPLING.md counts what each loses.
+// Source   pipeline/reference/fragment-stages.md 13.5; tools/lab/multisampling/MULTISAMPLING.md counts what each loses.
 #include "scenes/numbers/srgb_encode.h"
 #include "tools/oracle/mistakes/catalogue.h"
 

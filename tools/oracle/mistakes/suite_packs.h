@@ -3,7 +3,7 @@
 //
 // Rule     DIR/NAME is the pack of scene NAME, DIR/suite.json the list (tools/oracle/PACK.md, "A suite"). All files are
 //          derived from the scenes; a check derives them again.
-// Tests    tests/tools/suite_command_test.cpp
+// Tests    tests/tools/strata/diagnose/suite_command_test.cpp
 #pragma once
 #include <span>
 #include <string>

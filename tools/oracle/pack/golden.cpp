@@ -15,7 +15,8 @@ namespace strata::oracle {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-void derive(const Golden& golden, const scenes::PackFiles::Sink& sink) {
+void derive(const Golden& golden, const scenes::PackFiles::Sink& sink,
+            const std::function<void(double share)>& progress) {
     scenes::PackFiles files{sink};
     ordered_json manifest{{"format", "strata-pack"}, {"version", scenes::pack_version}, {"command", golden.command}};
     files.add_text("profile.json", scenes::to_json(golden.profile));
@@ -25,15 +26,19 @@ void derive(const Golden& golden, const scenes::PackFiles::Sink& sink) {
     manifest["draws"] =
         draws_json({golden.scene.list, *golden.scene.own_view, golden.profile, golden.options, golden.sampling}, files);
     manifest["results"] = ordered_json::array();
-    for (const peeling::Algorithm* algorithm : golden.algorithms)
-        manifest["results"].push_back(result_json(golden, *algorithm, files));
+    for (std::size_t i = 0; i < golden.algorithms.size(); ++i) {
+        manifest["results"].push_back(result_json(golden, *golden.algorithms[i], files));
+        if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(golden.algorithms.size()));
+    }
     manifest["files"] = files.list();
     sink("manifest.json", manifest.dump(1) + '\n');
 }
 
-void write_pack(const Golden& golden, const std::string& folder, Copies copies) {
+void write_pack(const Golden& golden, const std::string& folder, Copies copies,
+                const std::function<void(double share)>& progress) {
     scenes::NewFolder place{folder};
-    derive(golden, [&](const std::string& name, const std::string& bytes) { place.write(name, bytes); });
+    derive(
+        golden, [&](const std::string& name, const std::string& bytes) { place.write(name, bytes); }, progress);
     if (copies == Copies::exr) write_exr_copies(folder);
     place.keep();
 }

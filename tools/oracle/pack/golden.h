@@ -5,6 +5,7 @@
 // Tests    tests/tools/oracle/golden_test.cpp
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,13 +30,16 @@ struct Golden {
 };
 
 // Passes every file of the pack to `sink`, manifest.json last. Throws Refused if the profile lacks a feature.
-void derive(const Golden& golden, const scenes::PackFiles::Sink& sink);
+void derive(const Golden& golden, const scenes::PackFiles::Sink& sink,
+            const std::function<void(double share)>& progress = {});
 
 // Copies written in addition to the arrays (exr_copies.h).
 enum class Copies : std::uint8_t { none, exr };
 
 // InputError unless the folder is missing or empty. Removed after a failure.
-void write_pack(const Golden& golden, const std::string& folder, Copies copies = Copies::none);
+// `progress` gets the share of the algorithms whose results are written.
+void write_pack(const Golden& golden, const std::string& folder, Copies copies = Copies::none,
+                const std::function<void(double share)>& progress = {});
 
 // `path` is a pack's folder or its manifest.
 [[nodiscard]] Golden read_pack(const std::string& path);

@@ -3,7 +3,7 @@
 // Rule     The stated algorithm is tried first, then every exact one that treats fragments of one depth alike (keeps or
 //          loses them); each in the given formats, then in those of the candidate. A square with many fragments is
 //          compared before the whole frame is rendered.
-// Tests    tests/tools/compare_scene_test.cpp
+// Tests    tests/tools/strata/compare/compare_scene_test.cpp
 #pragma once
 #include <string>
 

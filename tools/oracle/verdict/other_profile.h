@@ -4,7 +4,7 @@
 // Rule     Only definite hypotheses are used, and only if they leave at most two codes or few values possible, or the
 //          picture contains at most one code: a hypothesis with wide rounding would explain too many pictures to be
 //          evidence.
-// Tests    tests/tools/compare_scene_test.cpp
+// Tests    tests/tools/strata/compare/compare_scene_test.cpp
 #pragma once
 #include <memory>
 #include <optional>

@@ -5,7 +5,7 @@
 // Rule     The given profile comes first, with the other origin (OpenGL draws with the origin at the lower left, so
 //          that the sample positions are mirrored in the picture), then with the other shadings and sample positions,
 //          then the caller's profiles and the built-in ones, each with both origins.
-// Tests    tests/tools/compare_samples_test.cpp, tests/tools/compare_scene_test.cpp
+// Tests    tests/tools/strata/compare/compare_samples_test.cpp, tests/tools/strata/compare/compare_scene_test.cpp
 #pragma once
 #include <span>
 #include <string>

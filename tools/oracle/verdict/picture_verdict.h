@@ -7,7 +7,7 @@
 //          linear frame is read as encoded values, as codes of an sRGB target, then as linear ones. A picture that
 //          needs more pixels at edges than real snapping moves is not decided, and one that loses fragments of one
 //          depth is wrong of an algorithm that keeps them.
-// Tests    tests/tools/oracle/verdict/picture_verdict_test.cpp, tests/tools/compare_scene_test.cpp
+// Tests    tests/tools/oracle/verdict/picture_verdict_test.cpp, tests/tools/strata/compare/compare_scene_test.cpp
 #pragma once
 #include <memory>
 #include <span>

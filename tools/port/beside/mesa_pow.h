@@ -3,7 +3,7 @@
 // Rule     pow(x, y) = exp2(log2(x) * y), 0 for x = 0. Both are polynomials whose even and odd terms are summed
 //          separately, every step a * b + c, fused if the processor has FMA. Division is IEEE's.
 // Source   pipeline/reference/mesa-rasterizers.md 2.10.
-// Tests    tools/bench/driver_differences.py: weighted averages that end in pow, pixel by pixel
+// Tests    tools/lab/bench/driver_differences.py: weighted averages that end in pow, pixel by pixel
 #pragma once
 #include <algorithm>
 #include <array>

@@ -20,8 +20,9 @@
 #include "tools/oracle/pack/pack_pictures.h"
 #include "tools/oracle/stored_like.h"
 #include "tools/strata/command.h"
-#include "tools/strata/compare_pages.h"
-#include "tools/strata/compare_scene.h"
+#include "tools/strata/compare/compare_pages.h"
+#include "tools/strata/compare/compare_scene.h"
+#include "tools/strata/compare/tolerances.h"
 #include "tools/strata/diagnose/diagnosis_page.h"
 #include "tools/strata/diagnose/mistakes.h"
 #include "tools/strata/messages.h"
@@ -30,7 +31,6 @@
 #include "tools/strata/progress.h"
 #include "tools/strata/recorded_command.h"
 #include "tools/strata/render/run.h"
-#include "tools/strata/tolerances.h"
 
 namespace strata::tools {
 

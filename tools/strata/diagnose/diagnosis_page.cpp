@@ -6,7 +6,7 @@
 
 #include "tools/oracle/drawings.h"
 #include "tools/oracle/mistakes/diagnosis_report.h"
-#include "tools/strata/compare_pages.h"
+#include "tools/strata/compare/compare_pages.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {

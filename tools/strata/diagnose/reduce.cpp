@@ -17,6 +17,7 @@
 #include "scenes/packs/new_folder.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/strata/command.h"
+#include "tools/strata/compare/tolerances.h"
 #include "tools/strata/diagnose/shell_command.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/choices.h"
@@ -24,7 +25,6 @@
 #include "tools/strata/options/shell_words.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/table.h"
-#include "tools/strata/tolerances.h"
 
 namespace strata::tools {
 

@@ -2,7 +2,7 @@
 //
 // Rule     The command has its own process group, its input is empty, and its output is discarded. The whole group gets
 //          SIGKILL when its shell has ended, at the time limit, or when a signal ends this process.
-// Tests    tests/tools/reduce_command_test.cpp
+// Tests    tests/tools/strata/diagnose/reduce_command_test.cpp
 #pragma once
 #include <string>
 

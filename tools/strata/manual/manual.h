@@ -1,6 +1,6 @@
 // tools/strata/manual/manual.h - texts about commands and options, generated from their declarations: help in groups,
 // and bash completions.
-// Tests    tests/tools/manual_test.cpp
+// Tests    tests/tools/strata/program/manual_test.cpp
 #pragma once
 #include <CLI/CLI.hpp>
 #include <cstdint>

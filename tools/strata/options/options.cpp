@@ -78,11 +78,12 @@ std::optional<std::uint8_t> to_mask(std::string_view text) {
 void add_shading_options(CLI::App& app, RunOptions& options) {
     add_choice(
         app, options.shades_pixels, "--shading", shadings,
-        "how often colours and programs are evaluated: once a sample, at its point, or once a pixel; coverage and "
-        "stored depth are always a sample's (default sample)");
-    add_choice(app, options.interpolate, "--interpolate", interpolations,
-               "where --shading pixel evaluates: at the pixel's centre, even outside the triangle, or at its centroid, "
-               "the first covered sample of a pixel that is covered in part (default centre)");
+        "per-sample or per-pixel evaluation of colours and programs; coverage and stored depth are always per sample "
+        "(default sample)");
+    add_choice(
+        app, options.interpolate, "--interpolate", interpolations,
+        "position of per-pixel shading: the pixel's centre, which may lie outside the triangle, or the centroid, "
+        "the first covered sample of a partly covered pixel (default centre)");
 }
 
 namespace {
@@ -258,11 +259,10 @@ peeling::Multisampling sampling(const RunOptions& options) noexcept {
 void complete(RunOptions& options) {
     const bool is_piped = scenes::is_standard_output(options.output);
     if (options.format && !is_piped)
-        throw CLI::ValidationError("--format goes with -o - alone: the name '" + options.output +
-                                   "' says what the file is");
+        throw CLI::ValidationError("--format is valid only with -o -; the name '" + options.output +
+                                   "' determines the format");
     if (is_piped && scenes::is_standard_output(options.stats))
-        throw CLI::ValidationError("--stats needs a file's name, for with -o - the picture takes standard output");
-    if (options.keeps_no_fragments) options.render.fragment_memory = 0;
+        throw CLI::ValidationError("with -o -, --stats must name a file");
     if (options.algorithms.empty()) options.algorithms = to_algorithms(options.default_algorithm);
     check_samples(options);
     take_interpolation(options);

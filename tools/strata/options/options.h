@@ -47,8 +47,6 @@ struct RunOptions {
     pipeline::LoadedSample load_sample = pipeline::LoadedSample::own;       // --load-sample: of geometry passes
     pipeline::LoadedSample composite_sample = pipeline::LoadedSample::own;  // --composite-sample: of full-screen ones
     pipeline::Resolve resolve = pipeline::Resolve::box;
-    // --execution tiled: replay without a record of fragments, whatever --fragment-memory is.
-    bool keeps_no_fragments = false;
     std::optional<std::uint64_t> max_memory{};  // --max-memory in bytes; empty: the free memory of the machine
     Simd simd = Simd::best;
     std::string stats;                        // --stats; empty: none, "-": standard output
@@ -80,9 +78,6 @@ void add_profile_option(CLI::App& app, std::string& profile);
 void add_origin_option(CLI::App& app, std::optional<pipeline::Origin>& origin);
 void add_view_options(CLI::App& app, RunOptions& options);      // --size ... --background
 void add_resource_options(CLI::App& app, RunOptions& options);  // --fragment-memory, --tile, --threads
-
-// Makes an --execution option accept the word `tiled`, with a warning: replay without a record of fragments.
-void accept_tiled(CLI::Option& execution, RunOptions& options);
 
 // Throws CLI::ValidationError if this processor lacks the instruction set.
 void check_simd(Simd simd);

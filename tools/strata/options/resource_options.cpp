@@ -34,33 +34,13 @@ std::optional<int> to_threads(std::string_view text) {
 }  // namespace
 
 void add_execution_options(CLI::App& app, RunOptions& options) {
-    accept_tiled(
-        *add_choice(app, options.render.execution, "--execution", executions,
-                    "over the whole frame, or tile by tile with a tile's fragments kept for later passes; same "
-                    "bits (default replay)"),
-        options);
+    add_choice(app, options.render.execution, "--execution", executions,
+               "over the whole frame, or tile by tile with a tile's fragments kept for later passes; same bits "
+               "(default replay)");
     add_choice(app, options.simd, "--simd", simds, "instruction set; same bits (default best: what the processor has)");
     add_choice(app, options.render.effects, "--effects", effects,
                "simulate the stages that are needed, or all; same bits (default needed)");
     add_resource_options(app, options);
-}
-
-void accept_tiled(CLI::Option& execution, RunOptions& options) {
-    execution.transform([&options](const std::string& given) {
-        std::string words;
-        bool has_tiled = false, has_replay = false;
-        for (const std::string& word : split(given, ',')) {
-            has_tiled |= word == "tiled";
-            has_replay |= word == "replay" || word == "all";
-            words += (words.empty() ? "" : ",") + (word == "tiled" ? std::string("replay") : word);
-        }
-        if (has_tiled && has_replay)
-            throw CLI::ValidationError(
-                "'tiled' and 'replay' exclude each other: tiled is replay with --fragment-memory 0");
-        if (has_tiled) say_warning("--execution tiled is replay with --fragment-memory 0");
-        options.keeps_no_fragments = has_tiled;
-        return words;
-    });
 }
 
 void add_resource_options(CLI::App& app, RunOptions& options) {
@@ -109,7 +89,7 @@ void add_memory_option(CLI::App& app, RunOptions& options) {
     };
     add_option(
         app, options.max_memory,
-        {"--max-memory", "SIZE", "refuse a picture that would take more, in bytes (default: what the machine has free)",
+        {"--max-memory", "SIZE", "refuse a picture that needs more bytes (default: the free memory of the computer)",
          "bytes such as 65536, 64M or 1G"},
         set_limit);
 }

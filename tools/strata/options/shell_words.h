@@ -4,7 +4,7 @@
 // Rule     A word that contains only letters, digits and @%+=:,./_- is not quoted, any other word is in single quotes;
 //          a single quote inside it is written '\''.
 // Source   POSIX.1-2017, Shell Command Language 2.2.
-// Tests    tests/tools/recorded_command_test.cpp
+// Tests    tests/tools/strata/program/recorded_command_test.cpp
 #pragma once
 #include <algorithm>
 #include <optional>

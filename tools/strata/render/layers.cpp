@@ -133,7 +133,8 @@ Command add_layers(CLI::App& root) {
     add_format_option(*app, options->run, "what -o - writes (default exr)");
     add_path(*app, options->deep,
              {"--deep", "FILE",
-              "every transparent fragment as a deep EXR, in submission order; of several samples a part for each, sample.0 ...",
+              "every transparent fragment as a deep EXR, in submission order; of several samples a part for each, "
+              "sample.0 ...",
               "a file name"});
     app->footer(
         footer("  strata layers teapot --size 200x150 -o layers.exr\n"

@@ -5,7 +5,7 @@
 //          another fragment of the pixel, or of its opaque surface; or the largest difference of a channel from the
 //          exact A-buffer, in units of 1/255. The largest number of the frame is white, 0 is black, with red and yellow
 //          between them. The report's maps show the same numbers.
-// Tests    tests/tools/map_test.cpp
+// Tests    tests/tools/strata/render/map_test.cpp
 #pragma once
 #include <vector>
 

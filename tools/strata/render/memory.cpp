@@ -48,7 +48,7 @@ void check_memory(const RunOptions& options, const Session& session, const peeli
     throw CLI::ValidationError("--max-memory",
                                algorithm.name + " at " + std::to_string(options.render.width) + "x" +
                                    std::to_string(options.render.height) + " needs about " + scenes::memory_text(need) +
-                                   (options.max_memory ? ", the limit is " : ", this machine has free ") +
+                                   (options.max_memory ? ", the limit is " : ", this computer has free ") +
                                    scenes::memory_text(*limit) + "; a smaller --size or --fragment-memory takes less");
 }
 

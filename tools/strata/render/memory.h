@@ -3,7 +3,7 @@
 // Rule     The need is the sum of the memory that the program holds already, that the frame will need
 //          (peeling/memory_need.h) and that the writer of its file will need. The limit is --max-memory; without it,
 //          the machine's free memory (scenes/memory_limit.h).
-// Tests    tests/tools/max_memory_test.cpp
+// Tests    tests/tools/strata/render/max_memory_test.cpp
 #pragma once
 #include "tools/strata/options/options.h"
 #include "tools/strata/render/run.h"

@@ -115,7 +115,7 @@ Command add_render(CLI::App& root) {
     add_format_option(*app, options->run, "what -o - writes (default png)");
     app->add_option_function<std::string>(
            "--mistake", [options = options.get()](const std::string& text) { options->mistakes = to_mistakes(text); },
-           "draw like a machine with these mistakes, to try strata diagnose (strata diagnose --list shows them)")
+           "render with these mistakes, to try strata diagnose (strata diagnose --list shows them)")
         ->type_name("NAME[,NAME...]");
     add_choice(*app, options->map, "--map", map_names(),
                "write a map as the .png of -o: fragments a pixel, fragments at another one's depth, or the difference "

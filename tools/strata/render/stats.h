@@ -1,5 +1,5 @@
 // tools/strata/render/stats.h - the statistics of a command: one JSON object per algorithm. Every key is always
-// present. Source: scenes/reference/reports.md 1. Tests: tests/tools/stats_test.cpp
+// present. Source: scenes/reference/reports.md 1. Tests: tests/tools/strata/render/stats_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>

@@ -4,7 +4,7 @@
 // Rule     The elements of an array are little endian. All their lowest bytes are stored first, then all the next ones:
 //          neighbouring pixels mostly have equal high bytes, so these planes compress well. A blob's number is its
 //          index in the page.
-// Tests    tests/tools/report_test.cpp unpacks the blobs again
+// Tests    tests/tools/strata/report/report_test.cpp unpacks the blobs again
 #pragma once
 #include <cstdint>
 #include <span>

@@ -110,12 +110,6 @@ void PlainPage::picture_with_letters(const pipeline::Image& image, const std::st
     add_picture("image/png", scenes::png_bytes(image), text, Width::own);
 }
 
-void PlainPage::picture_file(const std::string& path, const std::string& text) {
-    const bool has_letters = path.ends_with(".svg");
-    add_picture(has_letters ? "image/svg+xml" : "image/png", scenes::read_text_file(path), text,
-                has_letters ? Width::own : Width::fits);
-}
-
 std::string PlainPage::html() const {
     std::string page = fmt::format(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

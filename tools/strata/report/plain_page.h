@@ -4,7 +4,7 @@
 // Rule     The page is one file of at most 8 MiB, which can be opened from disk and loads no other file. Clicking or
 //          activating a table heading sorts the table; without scripts the page still shows all its contents. Contents
 //          that are left out because of the limit are listed at the end.
-// Tests    tests/tools/plain_page_test.cpp, tests/browser/plain_pages.py
+// Tests    tests/tools/strata/report/plain_page_test.cpp, tests/browser/plain_pages.py
 #pragma once
 #include <CLI/CLI.hpp>
 #include <array>
@@ -49,8 +49,6 @@ class PlainPage {
     void picture(const pipeline::Image& image, const std::string& text);
     // The same at its own size on any screen width, for a picture that contains text.
     void picture_with_letters(const pipeline::Image& image, const std::string& text);
-    // Embeds the bytes of a .png or .svg file.
-    void picture_file(const std::string& path, const std::string& text);
 
     // The whole page. Throws InputError if it exceeds the limit even without pictures.
     [[nodiscard]] std::string html() const;

@@ -152,7 +152,10 @@ class Builder {
                             "and numbers are of all samples",
                             samples_ - 1));
         add_fragments();
-        for (const peeling::Algorithm* algorithm : options_.algorithms) add(*algorithm);
+        for (std::size_t i = 0; i < options_.algorithms.size(); ++i) {
+            show(static_cast<double>(i));
+            add(*options_.algorithms[i], static_cast<double>(i));
+        }
         if (inspected_ != nullptr) add_history(*inspected_);
         data_.has_run = inspected_ != nullptr;
         return std::move(data_);
@@ -215,11 +218,14 @@ class Builder {
                       static_cast<std::size_t>(x));
     }
 
-    void add(const peeling::Algorithm& algorithm) {
-        Progress progress(algorithm.name);
+    // `position`: how many algorithms are complete; the history at the end counts as one.
+    void show(double position) { progress_.show(position / static_cast<double>(options_.algorithms.size() + 1)); }
+
+    void add(const peeling::Algorithm& algorithm, double position) {
         ordered_json entry = algorithm_of(algorithm);
         entry["command"] = canonical_command("render", options_, algorithm);
-        const peeling::RenderResult result = renderer_.render(algorithm, [&](double share) { progress.show(share); });
+        const peeling::RenderResult result = renderer_.render(
+            algorithm, [&](double share) { show(position + share / 2); });  // the other half is its survey
         if (result.outcome == peeling::Outcome::refused) {
             entry["refusal"] = result.refusal->message(session_.profile);
             data_.document["algorithms"].push_back(std::move(entry));
@@ -322,6 +328,7 @@ class Builder {
     rasterizer::Rect region_;
     int samples_;
     peeling::SampledRenderer renderer_;
+    Progress progress_{"report"};
     ReportData data_;
     Columns frame_, columns_;              // of the whole frame; of the region
     std::vector<std::uint32_t> in_frame_;  // index in `frame_` of each fragment of the region

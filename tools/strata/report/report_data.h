@@ -3,7 +3,7 @@
 //
 // Rule     The page has at most `most_bytes`. Contents that exceed it are left out and listed in `left_out`: fragments
 //          behind the nearest K of every pixel; whole histories outside a rectangle. Pictures are always complete.
-// Tests    tests/tools/report_test.cpp
+// Tests    tests/tools/strata/report/report_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
 

@@ -4,7 +4,7 @@
 // Rule     The algorithm runs once in literal execution with an observer. A fragment is identified by its pixel and the
 //          index of its triangle. A pass that selects by key alone takes all fragments of the pixel that have that key
 //          (dual peeling merges them).
-// Tests    tests/tools/report_test.cpp compares the result with `strata explain`
+// Tests    tests/tools/strata/report/report_test.cpp compares the result with `strata explain`
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <array>
+
+#include "rasterizer/rules/hypotheses.h"
+#include "tools/lab/hardware_check/drawing/suite.h"
+
+namespace strata::hardware_check {
+
+namespace {
+
+using Subject = rasterizer::HypothesisSubject;
+
+constexpr Subjects set_of(Subject subject) { return static_cast<Subjects>(1u << static_cast<unsigned>(subject)); }
+// The sets of subjects in use. A suite has a subject if its pictures can distinguish values of an undetermined constant
+// of that subject.
+constexpr Subjects colors = set_of(Subject::color), coordinates = set_of(Subject::coordinates),
+                   words = set_of(Subject::window_depth), quotients = set_of(Subject::texture_depth);
+
+}  // namespace
+
+// In ASCII order of the names.
+std::span<const Suite> suites() {
+    static constexpr std::array all{
+        Suite{"3D_primitive", draw_three_d_primitive, colors},
+        Suite{"Alpha_func", draw_alpha_func, colors},
+        Suite{"Antialiasing_tests", draw_antialiasing},
+        Suite{"Blend_surface", draw_blend_surface},
+        Suite{"Blend_tests", draw_blend_tests},
+        Suite{"Clear", draw_clear},
+        Suite{"Color_mask_blend", draw_color_mask_blend, colors},
+        Suite{"Combiner", draw_combiner, coordinates},
+        Suite{"Depth_Clamp", draw_depth_clamp, coordinates},
+        Suite{"Depth_buffer", draw_depth_buffer, words | colors},
+        Suite{"Depth_buffer_fixed_function", draw_depth_buffer_fixed_function, words | colors},
+        Suite{"Depth_function", draw_depth_function},
+        Suite{"Front_face", draw_front_face},
+        Suite{"Pixel_shader", draw_pixel_shader, quotients | coordinates, draw_pixel_shader_with},
+        Suite{"Shade_model", draw_shade_model, colors | coordinates},
+        Suite{"Stencil", draw_stencil},
+        Suite{"Stencil_func", draw_stencil_func},
+        Suite{"Surface_clip", draw_surface_clip},
+        Suite{"Texture_perspective", draw_texture_perspective, colors | coordinates},
+        Suite{"Texture_shadow_comparator", draw_texture_shadow_comparator, quotients | coordinates},
+        Suite{"Vertex_shader_rounding_tests", draw_vertex_shader_rounding},
+        Suite{"Viewport", draw_viewport},
+        Suite{"W_buffering", draw_w_buffering, words | coordinates},
+        Suite{"W_param", draw_w_param, coordinates},
+        Suite{"Window_clip", draw_window_clip},
+        Suite{"ZMinMaxControl", draw_z_min_max_control, colors},
+        Suite{"ZPass_pixel_count", draw_zpass_pixel_count}};
+    return all;
+}
+
+const Suite* find_suite(std::string_view name) {
+    const auto all = suites();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Suite& s) { return s.name == name; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace strata::hardware_check

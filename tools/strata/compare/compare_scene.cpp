@@ -1,0 +1,311 @@
+#include "tools/strata/compare/compare_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "peeling/registry.h"
+#include "peeling/sampled_renderer.h"
+#include "pipeline/device/check.h"
+#include "rasterizer/base/input_error.h"
+#include "scenes/files/atomic_file.h"
+#include "scenes/files/image_io.h"
+#include "scenes/models/models.h"
+#include "scenes/packs/pack_scene.h"
+#include "scenes/packs/plain_triangles.h"
+#include "tools/oracle/drawings.h"
+#include "tools/oracle/judge/forgotten.h"
+#include "tools/oracle/judge/samples_verdict.h"
+#include "tools/oracle/mistakes/suite.h"
+#include "tools/oracle/report.h"
+#include "tools/oracle/stored_like.h"
+#include "tools/oracle/verdict/distinguish_rules.h"
+#include "tools/oracle/verdict/edits.h"
+#include "tools/oracle/verdict/picture_verdict.h"
+#include "tools/strata/compare/compare_pages.h"
+#include "tools/strata/render/run.h"
+#include "tools/strata/table.h"
+
+namespace strata::tools {
+
+bool is_scene(const std::string& reference) {
+    if (reference == "-") return true;  // a glTF file from standard input
+    if (scenes::is_procedural(reference) || scenes::is_pack(reference) || scenes::is_model(reference) ||
+        scenes::is_array_of_triangles(reference))
+        return true;
+    std::string ending = std::filesystem::path(reference).extension().string();
+    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    return ending == ".gltf" || ending == ".glb" || ending == ".json";
+}
+
+std::string camera_in_words(const RunOptions& run) {
+    if (!run.camera.empty()) return "--camera " + run.camera;
+    if (run.takes_own_view) return "the scene's own view";
+    const Orbit orbit = run.orbit.value_or(Orbit{});
+    return fmt::format("--orbit {},{}", orbit.azimuth, orbit.elevation);
+}
+
+const oracle::Target& colors_of(const oracle::Picture& candidate) {
+    const auto found = std::ranges::find(candidate.targets, oracle::Meaning::color, &oracle::Target::meaning);
+    if (found == candidate.targets.end()) throw InputError(candidate.file, "targets", "colours", "none");
+    return *found;
+}
+
+Session open_at_size(SceneQuestion& question, const oracle::Target& target, const std::string& file) {
+    RunOptions& run = question.run;
+    if (!question.algorithm.empty()) run.algorithms = {to_algorithm(question.algorithm)};
+    complete(run);
+    take_size(run, target, file);
+    return open_session(run);
+}
+
+namespace {
+
+// The algorithm's own picture; with a depth target if the candidate has one.
+oracle::Picture drawn_by(const peeling::Algorithm& algorithm, const Session& session, const RunOptions& run,
+                         const oracle::Picture& candidate) {
+    peeling::RenderOptions options = run.render;
+    options.audit = options.keep_layers = false;
+    peeling::SampledRenderer renderer{session.scene.list, session.view, session.profile, options, sampling(run)};
+    peeling::RenderResult result = renderer.render(algorithm);
+    if (result.refusal) throw pipeline::Refused{session.profile, *std::move(result.refusal)};
+    oracle::Picture picture{.file = run.scene, .targets = {oracle::as_target(result.frame.color, "color")}};
+    picture.targets[0].alpha_form = oracle::AlphaForm::premultiplied;
+    if (oracle::has_depth(candidate) && !result.frame.depth.codes.empty())
+        picture.targets.push_back(oracle::as_target(result.frame.depth, "depth"));
+    return picture;
+}
+
+}  // namespace
+
+oracle::Picture drawn_picture(SceneQuestion question, const oracle::Picture& candidate) {
+    const Session session = open_at_size(question, candidate.targets[0], candidate.file);
+    oracle::Picture picture = drawn_by(*question.run.algorithms[0], session, question.run, candidate);
+    // A file of 8-bit colours holds those of a float target rounded.
+    const bool is_linear = question.run.scene_options.color_space == pipeline::ColorSpace::linear;
+    return is_linear ? picture : stored_like(std::move(picture), candidate, pipeline::ColorSpace::encoded);
+}
+
+namespace {
+
+using oracle::verdict::EditMap;
+
+// Colours of the kinds of edits, by their index; they repeat after the last one.
+constexpr std::array<std::uint8_t, 3> edit_colors[] = {{230, 80, 60},  {70, 140, 230},  {240, 200, 60},
+                                                       {80, 190, 100}, {190, 100, 210}, {70, 200, 210}};
+constexpr std::array<std::uint8_t, 3> unexplained_color = {255, 150, 200}, wrong_alpha_color = {140, 140, 140};
+
+pipeline::Image drawn(const EditMap& map) {
+    pipeline::Image image{pipeline::Format::rgba8, map.width, map.height};
+    for (int y = 0; y < map.height; ++y)
+        for (int x = 0; x < map.width; ++x) {
+            const std::size_t first = image.index(x, y);
+            const std::uint8_t edit = map.of_pixel[first / 4];
+            image.codes[first + 3] = 255;
+            if (edit == EditMap::right) continue;
+            const auto& color = edit == EditMap::unexplained   ? unexplained_color
+                                : edit == EditMap::wrong_alpha ? wrong_alpha_color
+                                                               : edit_colors[(edit - 1u) % std::size(edit_colors)];
+            std::ranges::copy(color, image.codes.begin() + static_cast<std::ptrdiff_t>(first));
+        }
+    return image;
+}
+
+// Returns the command of the first scene of the suite on which the explanations give different pictures; "" if there is
+// no such scene, or fewer than two explanations.
+std::string distinguishing_command(const oracle::verdict::Verdict& found) {
+    std::vector<std::vector<oracle::verdict::Rule>> rules;
+    for (const oracle::verdict::CheckedAccount& c : found.explanations)
+        if (is_of_any_scene(c.account.rules)) rules.push_back(c.account.rules);
+    if (rules.size() < 2) return "";
+    for (const oracle::SuiteScene& scene : oracle::suite()) {
+        if (scene.samples > 1) continue;  // the rules are about pictures of one
+        const oracle::OpenScene opened = open(scene);
+        const oracle::verdict::SceneFragments fragments{opened.input(), opened.options.fragment_memory};
+        if (distinguishes(fragments, rules)) return command_of(scene);
+    }
+    return "";
+}
+
+std::string counted(std::uint64_t pixels, const std::string& what) {
+    return std::to_string(pixels) + (pixels == 1 ? " pixel: " : " pixels: ") + what;
+}
+
+// A verdict as it is shown in files.
+struct ShownVerdict {
+    std::string text;
+    bool is_right = false;
+    pipeline::Image map;      // of the wrong pixels
+    std::string map_caption;  // what its colours mean
+    std::vector<PlainPage::Swatch> legend{};
+};
+
+// The picture that an exact algorithm makes of the scene: the named one, or the first that the profile runs.
+oracle::Picture right_picture(const SceneQuestion& question, const Session& session, const oracle::Picture& candidate) {
+    std::vector<const peeling::Algorithm*> tried = question.run.algorithms;
+    for (const peeling::Algorithm& algorithm : peeling::algorithms())
+        if (algorithm.exact) tried.push_back(&algorithm);
+    for (const peeling::Algorithm* algorithm : tried) try {
+            return drawn_by(*algorithm, session, question.run, candidate);
+        } catch (const pipeline::Refused&) {
+            if (algorithm == tried.back()) throw;
+        }
+    throw InputError(question.run.scene, "has no algorithm that draws it");
+}
+
+// The page: what a right port shows, the candidate, the difference and the wrong pixels next to each other, then the
+// verdict.
+PlainPage page_of(const std::string& scene, const oracle::Picture& right, const oracle::Picture& candidate,
+                  const oracle::Comparison& difference, const ShownVerdict& verdict) {
+    const std::string name = std::filesystem::path(candidate.file).filename().string();
+    PlainPage page{"Verdict", name + " of " + std::filesystem::path(scene).filename().string()};
+    std::istringstream lines(verdict.text);
+    std::vector<std::string> messages;
+    for (std::string line; std::getline(lines, line);) messages.push_back(line);
+    page.lead(messages[0]);
+    page.begin_pictures();
+    page.picture(oracle::as_shown(right), "What a right port shows");
+    page.picture(oracle::as_shown(candidate), "The candidate, " + name);
+    page.picture(oracle::heat_map(difference),
+                 "How far apart they are, in codes: black is equal; a right port may be some codes off");
+    page.picture(verdict.map, verdict.map_caption);
+    page.beside_pictures();
+    add_heat_scale(page, difference);
+    if (!verdict.legend.empty()) page.legend(verdict.legend);
+    messages.erase(messages.begin());
+    page.indented_items(messages);
+    page.end_pictures();
+    return page;
+}
+
+// The verdict as one line: what failed, and the findings.
+std::string one_line(const std::string& text) {
+    std::istringstream lines(text);
+    std::string all;
+    for (std::string line; std::getline(lines, line);)
+        all += (all.empty() ? "" : "; ") + line.substr(std::min(line.find_first_not_of(' '), line.size()));
+    return all;
+}
+
+void write_files(const SceneQuestion& question, const Session& session, const oracle::Picture& candidate,
+                 const ShownVerdict& verdict) {
+    const VerdictFiles& files = question.files;
+    if (!files.junit.empty())
+        scenes::write_file(files.junit, oracle::to_junit(std::vector<oracle::JunitCase>{
+                                            {.group = "strata.compare",
+                                             .name = "verdict",
+                                             .failure = verdict.is_right ? "" : one_line(verdict.text)}}));
+    if (files.heat.empty() && files.side.empty() && files.report.empty()) return;
+    const oracle::Picture right = right_picture(question, session, candidate);
+    const oracle::Comparison difference = oracle::compare(right, candidate, {}, {});
+    if (!files.heat.empty()) scenes::write_image(files.heat, {.color = oracle::heat_map_with_legend(difference)});
+    if (!files.side.empty())
+        scenes::write_image(files.side, {.color = oracle::beside({oracle::as_shown(right), oracle::as_shown(candidate),
+                                                                  oracle::heat_map(difference), verdict.map})});
+    if (!files.report.empty())
+        write_page(files.report, page_of(question.run.scene, right, candidate, difference, verdict));
+}
+
+ShownVerdict shown(const oracle::verdict::PictureVerdict& verdict, const pipeline::DrawList& list, std::string text) {
+    const oracle::verdict::Verdict& found = verdict.found;
+    const EditMap map = edit_map(*verdict.fragments, verdict.formed.colors(), found);
+    ShownVerdict shown{.text = std::move(text),
+                       .is_right = verdict.is_right(),
+                       .map = drawn(map),
+                       .map_caption = found.is_right ? "Wrong pixels: none, so all of it is black"
+                                                     : "What each wrong pixel composited: black is right"};
+    if (found.is_right) return shown;
+    for (std::size_t i = 0; i < map.edits.size(); ++i)
+        shown.legend.push_back({edit_colors[i % std::size(edit_colors)],
+                                counted(map.edits[i].pixels, description(map.edits[i].rules, found.facts, list))});
+    if (!found.alpha.wrong_pixels.empty())
+        shown.legend.push_back({wrong_alpha_color, counted(found.alpha.wrong_pixels.size(), "alpha alone is wrong")});
+    if (map.not_explained > 0)
+        shown.legend.push_back({unexplained_color, counted(map.not_explained, "no mistake that is known here")});
+    return shown;
+}
+
+ShownVerdict shown(const oracle::SamplesVerdict& verdict, std::string text) {
+    EditMap map{.width = verdict.form.target.width, .height = verdict.form.target.height};
+    map.of_pixel.assign(verdict.form.target.pixels(), EditMap::right);
+    const auto mark = [&map](const std::vector<std::uint32_t>& pixels, std::uint8_t as) {
+        for (const std::uint32_t pixel : pixels) map.of_pixel[pixel] = as;
+    };
+    mark(verdict.found.wrong_pixels, EditMap::unexplained);
+    mark(verdict.found.alpha.wrong_pixels, EditMap::wrong_alpha);
+    const bool is_right = verdict.found.is_right();
+    return {.text = std::move(text),
+            .is_right = is_right,
+            .map = drawn(map),
+            .map_caption = is_right ? "Wrong pixels: none, so all of it is black"
+                                    : "Wrong pixels: pink, or grey if alpha alone is wrong"};
+}
+
+// The verdict on a picture with several samples per pixel.
+int compare_resolved(const SceneQuestion& question, const Session& session, const oracle::Picture& candidate) {
+    const oracle::Target& colors = colors_of(candidate);
+    const oracle::RunInput input{session.scene.list,  session.view,           session.profile,
+                                 question.run.render, sampling(question.run), question.run.scene_options.color_space};
+    const oracle::SamplesVerdict verdict = judge_samples(input, {colors, question.is_form_stated, question.has_alpha});
+    const std::vector<std::string> forgotten = oracle::forgotten_options(input, verdict, camera_in_words(question.run));
+    const std::string text = oracle::with_forgotten(to_text(verdict), forgotten);
+    write_files(question, session, candidate, shown(verdict, text));
+    print(question.json ? oracle::json_with_forgotten(to_json(verdict), forgotten) : with_painted_verdicts(text));
+    return verdict.found.is_right() ? 0 : 1;
+}
+
+}  // namespace
+
+namespace {
+
+oracle::verdict::PictureVerdict judged(const SceneQuestion& question, const oracle::RunInput& input,
+                                       const oracle::Target& colors) {
+    return oracle::verdict::judge_picture(
+        input, {.colors = colors,
+                .is_form_stated = question.is_form_stated,
+                .has_alpha = question.has_alpha,
+                .is_frame_linear = question.run.scene_options.color_space == pipeline::ColorSpace::linear,
+                .algorithm = question.algorithm.empty() ? nullptr : question.run.algorithms[0]});
+}
+
+// Whether a picture with decoded colours, or blended in linear light, is right with --color-space linear.
+std::string if_linear(SceneQuestion question, const oracle::verdict::Verdict& found, const oracle::Picture& candidate) {
+    const oracle::Target& colors = colors_of(candidate);
+    using oracle::verdict::RuleKind;
+    const auto is_of_light = [](const oracle::verdict::CheckedAccount& c) {
+        return c.account.rules[0].kind == RuleKind::decoded || c.account.rules[0].kind == RuleKind::blended_linear;
+    };
+    if (question.run.scene_options.color_space == pipeline::ColorSpace::linear || scenes::is_pack(question.run.scene) ||
+        std::ranges::none_of(found.explanations, is_of_light))
+        return "";
+    question.run.scene_options.color_space = pipeline::ColorSpace::linear;
+    const Session session = open_at_size(question, colors, candidate.file);
+    const oracle::RunInput input{session.scene.list,  session.view, session.profile,
+                                 question.run.render, {},           pipeline::ColorSpace::linear};
+    return judged(question, input, colors).is_right() ? "  with --color-space linear the picture is right\n" : "";
+}
+
+}  // namespace
+
+int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate) {
+    const oracle::Target& colors = colors_of(candidate);
+    const Session session = open_at_size(question, colors, candidate.file);
+    if (question.run.samples > 1) return compare_resolved(question, session, candidate);
+    const pipeline::DrawList& list = session.scene.list;
+    const oracle::RunInput input{
+        list, session.view, session.profile, question.run.render, {}, question.run.scene_options.color_space};
+    oracle::verdict::PictureVerdict verdict = judged(question, input, colors);
+    verdict.reading += if_linear(question, verdict.found, candidate);
+    verdict.found.distinguishing_command = distinguishing_command(verdict.found);
+    const std::vector<std::string> forgotten = oracle::forgotten_options(input, verdict, camera_in_words(question.run));
+    const std::string text = oracle::with_forgotten(to_text(verdict, list), forgotten);
+    write_files(question, session, candidate, shown(verdict, list, text));
+    print(question.json ? oracle::json_with_forgotten(to_json(verdict, list, session.profile.name), forgotten)
+                        : with_painted_verdicts(text));
+    return verdict.is_right() ? 0 : 1;
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,117 @@
+// tools/strata/explain/explain.cpp - strata explain: prints what every pass of one or more algorithms did at one pixel.
+#include <memory>
+#include <type_traits>
+
+#include "scenes/files/atomic_file.h"
+#include "tools/oracle/history_report.h"
+#include "tools/strata/command.h"
+#include "tools/strata/explain/explain_candidate.h"
+#include "tools/strata/options/option.h"
+#include "tools/strata/render/run.h"
+#include "tools/strata/table.h"
+
+namespace strata::tools {
+
+namespace {
+
+struct Pixel {
+    int x = 0, y = 0;
+};
+
+// The options of the command line.
+struct ExplainOptions {
+    RunOptions run;
+    std::optional<Pixel> pixel;
+    std::string svg, candidate;
+    bool json = false;
+};
+
+// Parses "X,Y", in pixels from 0.
+std::optional<Pixel> to_pixel(std::string_view text) {
+    const auto parts = split(text, ',');
+    if (parts.size() != 2) return std::nullopt;
+    const auto x = to_int(parts[0]), y = to_int(parts[1]);
+    if (!x || !y || *x < 0 || *y < 0) return std::nullopt;
+    return Pixel{*x, *y};
+}
+
+// The text or the document of all algorithms; `explain_one(input, algorithm)` returns an Explained. Writes --svg.
+template <class Explained, class ExplainOne>
+std::string explained(ExplainOptions& options, const ExplainOne& explain_one) {
+    const Session session = open_session(options.run);
+    std::vector<Explained> histories;
+    for (const peeling::Algorithm* algorithm : options.run.algorithms)
+        histories.push_back(explain_one(oracle::RunInput{session.scene.list, session.view, session.profile,
+                                                         options.run.render, sampling(options.run)},
+                                        *algorithm));
+    if constexpr (std::is_same_v<Explained, oracle::History>)
+        if (!options.svg.empty()) scenes::write_file(options.svg, oracle::to_svg(histories));
+    if (options.json) return oracle::to_json(histories);
+    std::string text;
+    for (const Explained& history : histories) text += oracle::to_text(history);
+    for (const std::string& message : oracle::first_differences(histories)) text += message + '\n';
+    return text;
+}
+
+int explain(ExplainOptions& options) {
+    if (!options.candidate.empty()) {
+        if (!options.svg.empty()) throw CLI::ValidationError("--svg", "expected no --candidate beside it");
+        const auto [x, y] = options.pixel.value_or(Pixel{});
+        if (!options.pixel) throw CLI::ValidationError("--candidate", "expected --pixel X,Y beside it");
+        return explain_candidate({options.run, options.candidate, x, y, options.json});
+    }
+    complete(options.run);
+    check_outputs({{"--svg", options.svg, {".svg"}}});
+    // Lambdas of clang 14 capture no structured bindings.
+    const Pixel pixel = options.pixel.value_or(Pixel{});
+    const int x = pixel.x, y = pixel.y;
+    const peeling::RenderOptions& render = options.run.render;
+    if (!options.pixel || x >= render.width || y >= render.height)
+        throw CLI::ValidationError("--pixel must be a pixel from 0,0 to " + std::to_string(render.width - 1) + "," +
+                                   std::to_string(render.height - 1) +
+                                   (options.pixel ? ", not " + std::to_string(x) + "," + std::to_string(y) : ""));
+    if (options.run.samples > 1 && !options.run.sample) {
+        if (!options.svg.empty()) throw CLI::ValidationError("--svg goes with one sample: --sample N");
+        print(explained<oracle::SampledHistory>(options, [&](const oracle::RunInput& input, const auto& algorithm) {
+            return oracle::explain_samples(input, algorithm, x, y);
+        }));
+        return 0;
+    }
+    print(explained<oracle::History>(options, [&](const oracle::RunInput& input, const auto& algorithm) {
+        return oracle::explain(input, algorithm, {x, y, x + 1, y + 1}).at(0);
+    }));
+    return 0;
+}
+
+}  // namespace
+
+Command add_explain(CLI::App& root) {
+    auto* app =
+        root.add_subcommand("explain", "show what happened at one pixel: its fragments, and what each pass did");
+    const auto options = std::make_shared<ExplainOptions>();
+    add_picture_options(*app, options->run);
+    add_memory_option(*app, options->run);
+    add_option(*app, options->pixel,
+               {"--pixel", "X,Y", "the pixel, from the top left", "two whole numbers from 0 such as 320,200"},
+               [](std::string_view text) -> std::optional<std::optional<Pixel>> {
+                   const auto pixel = to_pixel(text);
+                   if (!pixel) return std::nullopt;
+                   return pixel;
+               });
+    add_path(*app, options->svg,
+             {"--svg", "FILE.svg", "the column of fragments, and which pass took which, as a drawing", "a file name"});
+    add_path(*app, options->candidate,
+             {"--candidate", "PICTURE",
+              "a port's picture of the scene: show which layers it composited at the pixel, and by which mistake",
+              "a file name"});
+    app->add_flag("--json", options->json, "one JSON document instead of text: enough to do every step again");
+    app->footer(
+        footer("  strata explain teapot --size 64x48 --pixel 32,24\n"
+               "  strata explain volume-beam:slices=4 --algorithm dual,front_to_back --size 32x32 --pixel 16,16 --json "
+               "--svg column.svg\n"
+               "  strata render teapot --size 64x48 -o port.png && strata explain teapot --candidate port.png --pixel "
+               "32,24\n"));
+    return {app, [options] { return explain(*options); }};
+}
+
+}  // namespace strata::tools
