@@ -21,7 +21,7 @@ set(strata_scenes_sources
   files/png.cpp
   images/png_encode.cpp
   files/profile_json.cpp
-  files/read_files.cpp
+  read_files.cpp
   files/straight_color.cpp
   files/strict_json.cpp
   files/text_file.cpp

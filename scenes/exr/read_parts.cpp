@@ -18,9 +18,9 @@
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/exr/openexr.h"
-#include "scenes/files/read_files.h"
 #include "scenes/lfs_pointer.h"
 #include "scenes/memory_limit.h"
+#include "scenes/read_files.h"
 
 namespace strata::scenes::exr {
 namespace {

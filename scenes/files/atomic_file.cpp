@@ -14,9 +14,9 @@
 #include <filesystem>
 #include <system_error>
 
-#include "scenes/files/read_files.h"
 #include "scenes/files/system_error.h"
 #include "scenes/files/unfinished_files.h"
+#include "scenes/read_files.h"
 
 namespace strata::scenes {
 namespace {

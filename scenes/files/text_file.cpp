@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "rasterizer/base/input_error.h"
-#include "scenes/files/read_files.h"
 #include "scenes/lfs_pointer.h"
+#include "scenes/read_files.h"
 
 namespace strata::scenes {
 

@@ -5,9 +5,9 @@
 #include <cctype>
 #include <fstream>
 
-#include "scenes/files/read_files.h"
 #include "scenes/inside_folder.h"
 #include "scenes/lfs_pointer.h"
+#include "scenes/read_files.h"
 
 namespace strata::scenes {
 namespace {

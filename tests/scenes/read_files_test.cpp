@@ -1,6 +1,6 @@
 // Tests that a protected file is not replaced. The process stays protected, but no other test writes a file that it has
 // read.
-#include "scenes/files/read_files.h"
+#include "scenes/read_files.h"
 
 #include <catch2/catch.hpp>
 #include <filesystem>

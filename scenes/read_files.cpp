@@ -1,4 +1,4 @@
-#include "scenes/files/read_files.h"
+#include "scenes/read_files.h"
 
 #include <sys/stat.h>
 

@@ -1,10 +1,10 @@
-// scenes/files/read_files.h - the files that a command has read, so that it does not replace one of them.
+// scenes/read_files.h - the files that a command has read, so that it does not replace one of them.
 //
 // Rule     A command that writes a result over its own scene, texture, picture, profile or pack destroys what its user
 //          made. After protect_read_files() every file that the scenes library reads is remembered by device and inode,
 //          and AtomicFile refuses to replace one of them. A library does not protect: a program may read a file,
 //          change its values and write it again.
-// Tests    tests/scenes/files/read_files_test.cpp, tests/tools/strata/render/output_test.cpp
+// Tests    tests/scenes/read_files_test.cpp, tests/tools/strata/render/output_test.cpp
 #pragma once
 #include <string>
 
