@@ -36,8 +36,8 @@ struct ImageHeader {
 // OpenImageIO's reader for a file's ending: .png, .jpg, .jpeg, .ppm, .pgm, .pbm, .pnm, .tga, .bmp, .hdr, .tif or .tiff,
 // in either case. Null for other endings.
 [[nodiscard]] const char* reader_of(const std::string& path);
-// An image's stored channels and bits, for programs that compare codes; `path` is read whole. InputError if the reader
-// cannot read it.
+// An image's stored channels and bits, upright, for programs that compare codes; `path` is read whole. InputError if
+// the reader cannot read it.
 [[nodiscard]] FileCodes read_codes(const std::string& path, const char* reader);
 
 }  // namespace strata::scenes

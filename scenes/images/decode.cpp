@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "scenes/images/openimageio.h"
+#include "scenes/images/orientation.h"
 #include "scenes/images/scaled_pnm.h"
 
 namespace strata::scenes::images {
@@ -142,6 +143,7 @@ FileCodes decode_codes(const EncodedPicture& picture, const FileLocation& locati
         location.fail("IMAGE_DATA_INVALID", "channels of 8 or 16 bits, halves or floats",
                       in_quotes(spec.format.c_str()));
     }
+    turn_upright(stored, spec.get_int_attribute("Orientation", 1));
     reader->close();
     if (picture.reader == std::string_view{"bmp"} && stored.channels == 4) drop_empty_alpha(stored);
     return stored;

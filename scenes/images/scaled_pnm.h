@@ -5,7 +5,7 @@
 //          65535.
 // Source   Netpbm's pages pgm and ppm: P2, P3 in decimals, P5, P6 in bytes or big-endian words after one whitespace
 //          character.
-// Tests    tests/tools/oracle/read_picture_test.cpp
+// Tests    tests/tools/oracle/picture/read_picture_test.cpp
 #pragma once
 #include <optional>
 #include <span>

@@ -1,6 +1,6 @@
 // scenes/packs/pack_files.h - the files of a pack: written one after another and listed, or looked up and read.
 //
-// Rule     tools/oracle/PACK.md, "Digests".
+// Rule     tools/oracle/pack/PACK.md, "Digests".
 // Tests    tests/scenes/packs/pack_scene_test.cpp
 #pragma once
 #include <functional>

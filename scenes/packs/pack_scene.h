@@ -1,7 +1,7 @@
 // scenes/packs/pack_scene.h - the scene of a golden pack: buffers as stored, materials, textures, instances, light and
 // view.
 //
-// Rule     tools/oracle/PACK.md. Reading a written scene gives the same bits.
+// Rule     tools/oracle/pack/PACK.md. Reading a written scene gives the same bits.
 // Tests    tests/scenes/packs/pack_scene_test.cpp
 #pragma once
 #include <string>
