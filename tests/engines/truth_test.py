@@ -8,7 +8,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools" / "port" / "engines"))
 import truth
 
-WRONG = "wrong: 6 of 1728 pixels are beyond what a right port reaches, and no one mistake explains them all"
+WRONG = "wrong: 6 of 1728 pixels have values that no right port reaches, and no single mistake explains them all"
 
 
 class Judgment(unittest.TestCase):

@@ -8,7 +8,7 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/image_io.h"
 #include "scenes/nearest_name.h"
-#include "tools/oracle/drawings.h"
+#include "tools/oracle/compare/drawings.h"
 #include "tools/oracle/pack/pack_pictures.h"
 
 namespace strata {

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "rasterizer/base/input_error.h"
+#include "tools/oracle/diagnosis/diagnosis_report.h"
+#include "tools/oracle/emulations/catalogue.h"
 #include "tools/oracle/judge/diagnose_picture.h"
-#include "tools/oracle/mistakes/catalogue.h"
-#include "tools/oracle/mistakes/diagnosis_report.h"
 
 namespace strata {
 inline namespace v0_1 {
@@ -22,20 +22,20 @@ std::vector<std::string> names_of_all(const std::vector<const oracle::Mistake*>&
 }  // namespace
 
 bool Diagnosed::is_right() const noexcept {
-    using enum oracle::Verdict;
-    const oracle::Verdict verdict = diagnosis.verdict;
-    return verdict == right || verdict == other_options || verdict == right_structure;
+    using enum oracle::Conclusion;
+    const oracle::Conclusion found = diagnosis.conclusion;
+    return found == right || found == other_options || found == right_structure;
 }
 
-std::string Diagnosed::verdict() const { return std::string{oracle::name(diagnosis.verdict)}; }
+std::string Diagnosed::verdict() const { return std::string{oracle::name(diagnosis.conclusion)}; }
 
 std::vector<std::string> Diagnosed::mistakes() const {
-    if (is_right() || diagnosis.verdict == oracle::Verdict::unknown_mistake) return {};
+    if (is_right() || diagnosis.conclusion == oracle::Conclusion::unknown_mistake) return {};
     return names_of_all(diagnosis.findings.at(0).mistakes);
 }
 
 std::vector<std::string> Diagnosed::alike() const {
-    if (is_right() || diagnosis.verdict == oracle::Verdict::unknown_mistake) return {};
+    if (is_right() || diagnosis.conclusion == oracle::Conclusion::unknown_mistake) return {};
     return names_of_all(diagnosis.findings.at(0).alike);
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "rasterizer/base/input_error.h"
-#include "tools/oracle/numbers_file.h"
+#include "tools/oracle/picture/numbers_file.h"
 
 namespace strata {
 inline namespace v0_1 {

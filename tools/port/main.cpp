@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "tools/port/algorithms/frame.h"
-#include "tools/port/context.h"
-#include "tools/port/pack.h"
+#include "tools/port/gl/context.h"
+#include "tools/port/gl/pack.h"
 
 namespace strata::port {
 
@@ -22,7 +22,7 @@ struct Options {
 };
 
 void list_mistakes(const Options& options) {
-    for (const Mistake& mistake : options.samples > 1 ? sampled_mistakes() : mistakes())
+    for (const PortMistake& mistake : options.samples > 1 ? sampled_mistakes() : mistakes())
         fmt::print("{:<26}{:<18}{}\n", mistake.name, mistake.algorithm, mistake.words);
 }
 
@@ -109,7 +109,7 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--samples", o.samples, "samples per pixel (default: the pack's, or 1)")->check(CLI::Range(1, 32));
     app.add_option(
            "--interpolate", o.interpolation,
-           "where geometry passes run their programs: once a sample, or once a pixel at its centre or centroid, "
+           "where geometry passes run their programs: once per sample, or once per pixel at its centre or centroid, "
            "where they load sample 0 (default sample)")
         ->check(CLI::IsMember({"sample", "centre", "centroid"}));
     app.add_option("--sample", o.sample, "what is written is this sample (default: the resolved picture)")

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/port/objects.h"
+#include "tools/port/gl/objects.h"
 
 namespace strata::port {
 
@@ -67,13 +67,13 @@ struct PortSettings {
 };
 
 // A mistake, and an algorithm whose result it changes.
-struct Mistake {
+struct PortMistake {
     const char *name, *algorithm, *words;
     void (*make)(PortSettings&) = nullptr;
 };
-[[nodiscard]] const std::vector<Mistake>& mistakes();
+[[nodiscard]] const std::vector<PortMistake>& mistakes();
 // Those of ports with several samples per pixel.
-[[nodiscard]] const std::vector<Mistake>& sampled_mistakes();
+[[nodiscard]] const std::vector<PortMistake>& sampled_mistakes();
 
 // Comma-separated names, to combine mistakes. Throws std::invalid_argument for an unknown name.
 [[nodiscard]] PortSettings settings_with(const std::string& names);

@@ -9,7 +9,7 @@
 #include "pipeline/formats/value_digest.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/image_io.h"
-#include "tools/oracle/picture.h"
+#include "tools/oracle/picture/picture.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/table.h"
 

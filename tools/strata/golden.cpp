@@ -9,7 +9,7 @@
 
 #include "peeling/sampled_renderer.h"
 #include "scenes/packs/new_folder.h"
-#include "tools/oracle/mistakes/suite_packs.h"
+#include "tools/oracle/suite/suite_packs.h"
 #include "tools/strata/command.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/choices.h"

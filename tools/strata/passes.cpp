@@ -1,5 +1,5 @@
 // tools/strata/passes.cpp - strata passes: writes every target of an algorithm after every pass.
-#include "tools/oracle/passes.h"
+#include "tools/oracle/passes/passes.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@
 #include "scenes/files/image_io.h"
 #include "scenes/files/load_module.h"
 #include "scenes/packs/new_folder.h"
-#include "tools/oracle/contact_sheet.h"
+#include "tools/oracle/passes/contact_sheet.h"
 #include "tools/strata/command.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"

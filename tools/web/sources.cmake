@@ -8,11 +8,11 @@ set(strata_web_sources
   ${CMAKE_CURRENT_LIST_DIR}/header_libraries.cpp
   ${CMAKE_CURRENT_LIST_DIR}/workbench.cpp
   ${PROJECT_SOURCE_DIR}/tools/strata/report/survey.cpp
-  ${oracle}/codes.cpp
-  ${oracle}/fragment_facts.cpp
-  ${oracle}/history.cpp
-  ${oracle}/history_text.cpp
-  ${oracle}/passes.cpp
-  ${oracle}/target_parts.cpp
+  ${oracle}/picture/codes.cpp
+  ${oracle}/explain/fragment_facts.cpp
+  ${oracle}/explain/history.cpp
+  ${oracle}/explain/history_text.cpp
+  ${oracle}/passes/passes.cpp
+  ${oracle}/passes/target_parts.cpp
   ${strata_scenes_sources})
 set(strata_web_definitions TINYGLTF_NO_STB_IMAGE TINYGLTF_NO_INCLUDE_JSON STRATA_VERSION="${PROJECT_VERSION}")

@@ -25,7 +25,7 @@
 #include "scenes/gltf/gltf.h"
 #include "scenes/numbers/srgb_encode.h"
 #include "scenes/scene.h"
-#include "tools/oracle/history_report.h"
+#include "tools/oracle/explain/history_report.h"
 #include "tools/strata/report/survey.h"
 
 namespace strata::web {

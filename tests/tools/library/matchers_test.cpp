@@ -6,7 +6,7 @@
 
 #include "strata/catch2.h"
 #include "strata/strata.h"
-#include "tests/tools/oracle/own_file.h"
+#include "tests/tools/oracle/picture/own_file.h"
 #include "tools/oracle/pack/golden.h"
 
 using Catch::Matchers::Contains;

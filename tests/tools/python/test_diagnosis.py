@@ -34,7 +34,7 @@ def test_nothing_is_forgiven_by_itself(scene):
 
 
 def add_target(pack, name, kind, code, array):
-    """Adds an array in the format of tools/oracle/PACK.md, with a header of 128 bytes."""
+    """Adds an array in the format of tools/oracle/pack/PACK.md, with a header of 128 bytes."""
     file = f"expected/{name}/{kind}.npy"
     (pack / file).parent.mkdir(parents=True, exist_ok=True)
     header = str({"descr": array.dtype.str, "fortran_order": False, "shape": array.shape}).encode()

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "strata/picture.h"
-#include "tools/oracle/compare.h"
-#include "tools/oracle/report.h"
+#include "tools/oracle/compare/compare.h"
+#include "tools/oracle/compare/report.h"
 
 namespace strata {
 inline namespace v0_1 {

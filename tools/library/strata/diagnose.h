@@ -18,8 +18,8 @@
 #include "strata/names.h"
 #include "strata/render.h"
 #include "strata/scene.h"
+#include "tools/oracle/diagnosis/diagnosis.h"
 #include "tools/oracle/judge/judge.h"
-#include "tools/oracle/mistakes/diagnosis.h"
 
 namespace strata {
 inline namespace v0_1 {

@@ -1,6 +1,7 @@
 // strata/picture.h - copies pictures between the library and a program's own memory, without changing a bit.
 //
-// Rule     A picture is one or more targets with their stored codes (tools/oracle/picture.h). Memory is little endian,
+// Rule     A picture is one or more targets with their stored codes (tools/oracle/picture/picture.h). Memory is little
+// endian,
 //          with rows from the top unless the layout says otherwise, with or without padding after each row. Nothing is
 //          scaled, multiplied by alpha or decoded.
 // Tests    tests/tools/library/memory_test.cpp
@@ -13,7 +14,7 @@
 #include <vector>
 
 #include "pipeline/formats/image.h"
-#include "tools/oracle/picture.h"
+#include "tools/oracle/picture/picture.h"
 
 namespace strata {
 inline namespace v0_1 {

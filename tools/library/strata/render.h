@@ -15,8 +15,8 @@
 #include "strata/names.h"
 #include "strata/picture.h"
 #include "strata/scene.h"
-#include "tools/oracle/history_report.h"
-#include "tools/oracle/passes.h"
+#include "tools/oracle/explain/history_report.h"
+#include "tools/oracle/passes/passes.h"
 
 namespace strata {
 inline namespace v0_1 {

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "pipeline/device/profile.h"
+#include "tools/oracle/emulations/machine_options.h"
 #include "tools/oracle/judge/judge.h"
-#include "tools/oracle/mistakes/machine_options.h"
-#include "tools/oracle/stored_like.h"
+#include "tools/oracle/picture/stored_like.h"
 
 namespace strata::oracle {
 
@@ -19,7 +19,8 @@ bool is_decided(const DiagnosisQuestion& question, const Diagnosis& found) {
         found.findings.front().agreeing == found.pixels && !found.passes_contradict && !found.is_nearly;
     if (!is_exact) return false;
     // The layers of an approximate algorithm are not in order, so that they cannot contradict.
-    return found.verdict == Verdict::right || found.verdict == Verdict::other_options || !question.algorithm.exact;
+    return found.conclusion == Conclusion::right || found.conclusion == Conclusion::other_options ||
+           !question.algorithm.exact;
 }
 
 bool has_layers(const RunInput& input) {
@@ -31,7 +32,7 @@ bool has_layers(const RunInput& input) {
 Judgement layers_of(const DiagnosisQuestion& question, const Target& colors) {
     return judge(question.input,
                  {colors, question.is_form_stated, question.tolerances.channels == ColorChannels::all,
-                  question.algorithm.exact ? &question.algorithm : nullptr, question.camera},
+                  question.algorithm.exact ? &question.algorithm : nullptr, question.camera, question.layers},
                  question.more);
 }
 
@@ -55,10 +56,10 @@ void ask_layers(const DiagnosisQuestion& question, const Picture& right, Diagnos
     found.structure_json = layers.json;
     if (const std::string own = own_structure(question, layers, right); !own.empty()) {
         found.structure = fmt::format("right but for rounding: {}, as {} does\n", own, question.algorithm.name);
-        found.verdict = Verdict::right_structure;
+        found.conclusion = Conclusion::right_structure;
     } else if (layers.is_right || (!is_single && (layers.is_explained || layers.is_undecided))) {
         found.structure = layers.text;
-        found.verdict = layers.is_right ? Verdict::right_structure : Verdict::unknown_mistake;
+        found.conclusion = layers.is_right ? Conclusion::right_structure : Conclusion::unknown_mistake;
     } else if (is_single) {
         found.by_layers = layers.mistakes;
     } else if (!is_exact && !found.is_nearly) {

@@ -1,7 +1,7 @@
 // tools/oracle/judge/diagnose_picture.h - the mistake in a picture of a scene: by emulations, and by its layers where
 // no emulation gives the picture.
 //
-// Rule     Emulations are tried first (mistakes/diagnosis.h), with options of a right run before mistakes. A picture
+// Rule     Emulations are tried first (diagnosis/diagnosis.h), with options of a right run before mistakes. A picture
 //          that is right by its layers is right, even if a mistake has the same picture: `strata compare` says so, too.
 //          Where no emulation gives the picture, the layers are asked whatever the algorithm is: a finding of theirs
 //          is the finding, and their leads are shown.
@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "tools/oracle/mistakes/diagnosis.h"
+#include "tools/oracle/diagnosis/diagnosis.h"
 
 namespace strata::oracle {
 
@@ -25,6 +25,7 @@ struct DiagnosisQuestion {
     int limit = 0;                                    // geometry passes after which the candidate gives up; 0: unknown
     std::span<const pipeline::DeviceProfile> more{};  // profiles that are tried before the built-in ones
     const std::vector<PassPicture>* passes = nullptr;  // the candidate's
+    ShowProgress layers{};                             // progress of the verdict by layers, which is the last step
 };
 
 struct PictureDiagnosis {

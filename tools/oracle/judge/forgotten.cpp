@@ -12,8 +12,8 @@
 
 #include "pipeline/device/profile.h"
 #include "scenes/numbers/srgb_encode.h"
+#include "tools/oracle/fragments/fragments.h"
 #include "tools/oracle/judge/samples_verdict.h"
-#include "tools/oracle/verdict/fragments.h"
 #include "tools/oracle/verdict/other_profile.h"
 #include "tools/oracle/verdict/picture_verdict.h"
 
@@ -230,14 +230,17 @@ Agreeing agreeing(const Expected& right, const Colors& picture, const Color& bac
 }  // namespace
 
 std::vector<std::string> forgotten_options(const RunInput& input, const Colors& picture,
-                                           const std::vector<std::uint32_t>& wrong_pixels, const std::string& camera) {
+                                           const std::vector<std::uint32_t>& wrong_pixels, const std::string& camera,
+                                           const ShowProgress& progress) {
     std::vector<std::string> sentences;
     const SceneFragments scene{{input.list, input.view, input.profile, input.options, {}, input.space},
                                input.options.fragment_memory};
     const Expected right = expected(scene);
     const Color given = given_background(input);
     const auto seen = seen_background(right, picture, given);
-    for (const Way& way : ways(input, seen)) {
+    const std::vector<Way> tried = ways(input, seen);
+    for (const Way& way : tried) {
+        if (progress) progress(static_cast<double>(&way - tried.data()) / static_cast<double>(tried.size()));
         if (!is_right_so(input, way, picture, wrong_pixels)) continue;
         const std::string where = moved(way);
         if (where.empty())
@@ -269,16 +272,16 @@ std::vector<std::string> forgotten_options(const RunInput& input, const Colors& 
 }
 
 std::vector<std::string> forgotten_options(const RunInput& input, const verdict::PictureVerdict& verdict,
-                                           const std::string& camera) {
+                                           const std::string& camera, const ShowProgress& progress) {
     const std::vector<std::uint32_t>& wrong = verdict.found.right.wrong_pixels;
     if (verdict.found.is_right || wrong.empty() || !verdict.found.explanations.empty()) return {};
-    return forgotten_options(input, verdict.formed.colors(), wrong, camera);
+    return forgotten_options(input, verdict.formed.colors(), wrong, camera, progress);
 }
 
 std::vector<std::string> forgotten_options(const RunInput& input, const SamplesVerdict& verdict,
-                                           const std::string& camera) {
+                                           const std::string& camera, const ShowProgress& progress) {
     if (verdict.found.wrong_pixels.empty()) return {};
-    return forgotten_options(input, verdict.form.colors(), verdict.found.wrong_pixels, camera);
+    return forgotten_options(input, verdict.form.colors(), verdict.found.wrong_pixels, camera, progress);
 }
 
 std::string json_with_forgotten(const std::string& json, const std::vector<std::string>& sentences) {

@@ -42,7 +42,8 @@ Judgement judge(const RunInput& input, const AskedPicture& picture, std::span<co
                                        .has_alpha = picture.has_alpha,
                                        .is_frame_linear = input.space == pipeline::ColorSpace::linear,
                                        .algorithm = picture.algorithm,
-                                       .more = more});
+                                       .more = more,
+                                       .progress = picture.progress});
     const verdict::Verdict& found = verdict.found;
     std::vector<std::string> mistakes;
     for (const verdict::CheckedAccount& c : found.explanations)

@@ -7,7 +7,7 @@
 
 #include "pipeline/device/check.h"
 #include "pipeline/device/sample_points.h"
-#include "tools/oracle/pairs.h"
+#include "tools/oracle/picture/pairs.h"
 #include "tools/oracle/verdict/other_rules.h"
 
 namespace strata::oracle {
@@ -88,7 +88,10 @@ SamplesVerdict judge_samples(const RunInput& input, const AskedPicture& picture,
     // Rules decide about coverage and colours: another alpha has another cause.
     const std::vector<std::uint32_t> wrong = verdict.found.wrong_pixels;
     if (wrong.empty()) return verdict;
-    for (const OtherRules& other : verdict::other_rules(input, more)) {
+    const std::vector<OtherRules> others = verdict::other_rules(input, more);
+    for (const OtherRules& other : others) {
+        const auto tried = static_cast<double>(&other - others.data());
+        if (picture.progress) picture.progress(tried / static_cast<double>(others.size()));
         auto found = right_samples_by(other, input, verdict.form.colors(), wrong);
         if (!found) continue;
         verdict.found = *std::move(found);

@@ -9,9 +9,9 @@
 #include <span>
 #include <string>
 
+#include "tools/oracle/fragments/form.h"
 #include "tools/oracle/judge/asked_picture.h"
 #include "tools/oracle/run_input.h"
-#include "tools/oracle/verdict/form.h"
 #include "tools/oracle/verdict/other_rules.h"
 #include "tools/oracle/verdict/resolved.h"
 

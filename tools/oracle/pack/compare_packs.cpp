@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "tools/oracle/report.h"
+#include "tools/oracle/compare/report.h"
 
 namespace strata::oracle {
 

@@ -3,9 +3,9 @@
 //
 // Rule     Each algorithm of which the candidate has any file is compared: its image, its layers, and every target of
 //          every pass. The first pass that differs beyond the tolerance is reported; a table lists all.
-// Tests    tests/tools/oracle/pack_pictures_test.cpp
+// Tests    tests/tools/oracle/pack/pack_pictures_test.cpp
 #pragma once
-#include "tools/oracle/compare.h"
+#include "tools/oracle/compare/compare.h"
 #include "tools/oracle/pack/pack_pictures.h"
 
 namespace strata::oracle {

@@ -1,15 +1,15 @@
 // tools/oracle/pack/draw_json.h - the objects of "draws" in a pack: the triangles that passes draw, in clip space and
 // snapped.
 //
-// Rule     tools/oracle/PACK.md. The arrays come from pipeline::transform and rasterizer::set_up.
-// Tests    tests/tools/oracle/pack_draws_test.cpp
+// Rule     tools/oracle/pack/PACK.md. The arrays come from pipeline::transform and rasterizer::set_up.
+// Tests    tests/tools/oracle/pack/pack_draws_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "peeling/algorithms/algorithm.h"
 #include "scenes/packs/pack_files.h"
-#include "tools/oracle/passes.h"
+#include "tools/oracle/passes/passes.h"
 
 namespace strata::oracle {
 

@@ -9,7 +9,7 @@
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/pack/pack_pictures.h"
 #include "tools/oracle/pack/target_json.h"
-#include "tools/oracle/target_parts.h"
+#include "tools/oracle/passes/target_parts.h"
 
 namespace strata::oracle {
 

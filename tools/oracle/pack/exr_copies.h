@@ -1,8 +1,8 @@
 // tools/oracle/pack/exr_copies.h - the expected targets of a pack as EXR files, for image viewers.
 //
-// Rule     tools/oracle/PACK.md, "EXR copies": in the folders of the arrays, not in the manifest, and equal to the
+// Rule     tools/oracle/pack/PACK.md, "EXR copies": in the folders of the arrays, not in the manifest, and equal to the
 //          arrays in every code.
-// Tests    tests/tools/oracle/exr_copies_test.cpp
+// Tests    tests/tools/oracle/pack/exr_copies_test.cpp
 #pragma once
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // tools/oracle/pack/manifest_value.h - reads the results of a manifest that another program may have changed: keys may
 // be missing, but values that are present must have their type.
 //
-// Tests    tests/tools/oracle/changed_packs_test.cpp
+// Tests    tests/tools/oracle/pack/changed_packs_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>

@@ -11,9 +11,9 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/inside_folder.h"
 #include "scenes/packs/pack_scene.h"
-#include "tools/oracle/numbers_file.h"
 #include "tools/oracle/pack/manifest_value.h"
 #include "tools/oracle/pack/target_json.h"
+#include "tools/oracle/picture/numbers_file.h"
 
 namespace strata::oracle {
 

@@ -1,15 +1,15 @@
 // tools/oracle/pack/pack_pictures.h - reads the expected targets of a golden pack, and a candidate's, as images to
 // compare.
 //
-// Rule     tools/oracle/PACK.md, "A candidate": names are the pack's; parts missing from a candidate are omitted.
-// Tests    tests/tools/oracle/pack_pictures_test.cpp
+// Rule     tools/oracle/pack/PACK.md, "A candidate": names are the pack's; parts missing from a candidate are omitted.
+// Tests    tests/tools/oracle/pack/pack_pictures_test.cpp
 #pragma once
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "tools/oracle/passes.h"
-#include "tools/oracle/picture.h"
+#include "tools/oracle/passes/passes.h"
+#include "tools/oracle/picture/picture.h"
 
 namespace strata::oracle {
 

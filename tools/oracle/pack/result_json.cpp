@@ -6,7 +6,7 @@
 #include "pipeline/device/check.h"
 #include "tools/oracle/pack/draw_json.h"
 #include "tools/oracle/pack/target_json.h"
-#include "tools/oracle/passes.h"
+#include "tools/oracle/passes/passes.h"
 
 namespace strata::oracle {
 

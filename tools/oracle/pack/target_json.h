@@ -1,8 +1,8 @@
 // tools/oracle/pack/target_json.h - writes a target into a pack: its codes as an array, and digests of the whole, of
 // channels and of tiles.
 //
-// Rule     tools/oracle/PACK.md. A target that has not changed since it was last written refers to its earlier file.
-// Tests    tests/tools/oracle/golden_test.cpp
+// Rule     tools/oracle/pack/PACK.md. A target that has not changed since it was last written refers to its earlier
+// file. Tests    tests/tools/oracle/pack/golden_test.cpp
 #pragma once
 #include <map>
 #include <nlohmann/json.hpp>

@@ -16,9 +16,9 @@
 #include <optional>
 #include <string>
 
-#include "tools/oracle/compare.h"
+#include "tools/oracle/compare/compare.h"
 #include "tools/oracle/pack/golden.h"
-#include "tools/oracle/picture.h"
+#include "tools/oracle/picture/picture.h"
 
 namespace strata::oracle {
 

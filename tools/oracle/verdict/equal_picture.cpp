@@ -7,7 +7,7 @@
 #include "peeling/registry.h"
 #include "peeling/render.h"
 #include "pipeline/device/check.h"
-#include "tools/oracle/stored_like.h"
+#include "tools/oracle/picture/stored_like.h"
 #include "tools/oracle/verdict/picture_verdict.h"
 
 namespace strata::oracle::verdict {

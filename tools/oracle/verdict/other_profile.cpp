@@ -3,8 +3,8 @@
 #include <mutex>
 
 #include "pipeline/device/check.h"
-#include "tools/oracle/verdict/match.h"
-#include "tools/oracle/verdict/sample.h"
+#include "tools/oracle/fragments/sample.h"
+#include "tools/oracle/search/match.h"
 
 namespace strata::oracle::verdict {
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/oracle/fragments/fragments.h"
 #include "tools/oracle/run_input.h"
-#include "tools/oracle/verdict/fragments.h"
 #include "tools/oracle/verdict/other_rules.h"
 #include "tools/oracle/verdict/verdict.h"
 

@@ -20,9 +20,9 @@ constexpr std::string_view shading_option(Interpolation interpolation) {
     switch (interpolation) {
         case Interpolation::sample: return "--shading sample";
         case Interpolation::centre: return "--shading pixel";
-        case Interpolation::centroid: return "--shading pixel --interpolate centroid";
+        case Interpolation::centroid: break;
     }
-    return "";  // unreachable: the enum is closed
+    return "--shading pixel --interpolate centroid";
 }
 
 class Lister {

@@ -10,6 +10,7 @@
 #include "tools/oracle/verdict/equal_picture.h"
 #include "tools/oracle/verdict/other_profile.h"
 #include "tools/oracle/verdict/report.h"
+#include "tools/oracle/verdict/shifted_edges.h"
 
 namespace strata::oracle::verdict {
 
@@ -37,6 +38,7 @@ class PictureJudge {
   public:
     PictureJudge(const RunInput& input, const PictureQuestion& question) : input_{input}, question_{question} {
         result_.fragments = std::make_unique<SceneFragments>(input, input.options.fragment_memory);
+        scene().setting().work->show_by(question.progress);
         scene().set_stored(readings(question)[0]);
         result_.formed = formed(scene(), question.colors, question.is_form_stated);
         result_.formed.use.has_alpha = question.has_alpha;
@@ -50,8 +52,10 @@ class PictureJudge {
             return with(equal_to(name));
         if (auto right = by_another_reading()) return with(*std::move(right));
         result_.found = quick ? *std::move(quick) : judge_at_length(scene(), seen());
+        scene().setting().work->begin_stage(0.9, 1);
         ask_profiles();
         hold_to_algorithm();
+        find_shifted_edges();
         doubt_many_edges();
         return std::move(result_);
     }
@@ -89,12 +93,13 @@ class PictureJudge {
     void ask_profiles() {
         Verdict& found = result_.found;
         const bool is_wrong = found.state() == State::wrong && found.alpha.state != AlphaState::wrong;
-        const bool is_excused = found.right.at_edges > 0 && found.state() != State::wrong;
+        const bool is_excused = found.right.rasterized_otherwise() > 0 && found.state() != State::wrong;
         if (!is_wrong && !is_excused) return;
         std::vector<std::uint32_t> wrong = found.right.wrong_pixels;
         auto other = right_by_other_profile(input_, seen(), wrong, question_.more);
-        if (!other || (is_excused && other->verdict.right.at_edges > 0)) return;
-        result_.reading += other->description(input_.profile.name, is_wrong ? wrong.size() : found.right.at_edges);
+        if (!other || (is_excused && other->verdict.right.rasterized_otherwise() > 0)) return;
+        result_.reading +=
+            other->description(input_.profile.name, is_wrong ? wrong.size() : found.right.rasterized_otherwise());
         found = std::move(other->verdict);
         result_.other_profile = std::move(other->profile);
         result_.fragments = std::move(other->fragments);
@@ -111,6 +116,20 @@ class PictureJudge {
         found.is_right = false;
         found.finding = fmt::format("fragments of one depth are lost or merged at {} of {} pixels, and {} keeps all",
                                     found.right.lost_at_ties, found.right.pixels, question_.algorithm->name);
+    }
+
+    // Another rasterizer's snapping moves edges in all directions.
+    void find_shifted_edges() {
+        Verdict& found = result_.found;
+        constexpr std::uint64_t few = 10;
+        if (!found.is_right || found.right.at_edges < std::max(few, found.right.edges / 100)) return;
+        const std::string_view direction = direction_of_edges(scene(), seen(), found.right);
+        if (direction.empty()) return;
+        found.is_right = false;
+        found.finding = fmt::format(
+            "{} of {} pixels at edges are covered as if everything were moved {} by a fraction of "
+            "a pixel",
+            found.right.at_edges, found.right.edges, direction);
     }
 
     // Real rasterizers have 8 bits of subpixels, a thirty-second of what the coverages allow.
@@ -134,7 +153,9 @@ class PictureJudge {
 }  // namespace
 
 PictureVerdict judge_picture(const RunInput& input, const PictureQuestion& question) {
-    return PictureJudge{input, question}.decide();
+    PictureVerdict verdict = PictureJudge{input, question}.decide();
+    verdict.fragments->setting().work->show_by({});  // they outlive the question
+    return verdict;
 }
 
 std::string to_text(const PictureVerdict& verdict, const pipeline::DrawList& list) {

@@ -5,17 +5,19 @@
 //          (equal_picture.h), the search for mistakes (verdict.h), the rules of the other profiles (other_profile.h).
 //          Of a file with straight colours the form with fewer wrong pixels is used (form.h). A file for display of a
 //          linear frame is read as encoded values, as codes of an sRGB target, then as linear ones. A picture that
-//          needs more pixels at edges than real snapping moves is not decided, and one that loses fragments of one
-//          depth is wrong of an algorithm that keeps them.
+//          needs more pixels at edges than real snapping moves is not decided; it is wrong if all of them are moved in
+//          one direction (shifted_edges.h). One that loses fragments of one depth is wrong of an algorithm that keeps
+//          them.
 // Tests    tests/tools/oracle/verdict/picture_verdict_test.cpp, tests/tools/strata/compare/compare_scene_test.cpp
 #pragma once
 #include <memory>
 #include <span>
 #include <string>
 
+#include "tools/oracle/fragments/form.h"
+#include "tools/oracle/fragments/fragments.h"
 #include "tools/oracle/run_input.h"
-#include "tools/oracle/verdict/form.h"
-#include "tools/oracle/verdict/fragments.h"
+#include "tools/oracle/show_progress.h"
 #include "tools/oracle/verdict/verdict.h"
 
 namespace strata::peeling {
@@ -32,6 +34,7 @@ struct PictureQuestion {
     bool is_frame_linear = false;                     // --color-space linear
     const peeling::Algorithm* algorithm = nullptr;    // that the port runs; null: not known
     std::span<const pipeline::DeviceProfile> more{};  // profiles that are tried before the built-in ones
+    ShowProgress progress{};
 };
 
 struct PictureVerdict {

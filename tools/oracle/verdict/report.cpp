@@ -31,12 +31,14 @@ std::string ties_of(const CheckedAccount& c) {
 }
 
 std::string excused_of(const CheckedAccount& c) {
-    std::string text = fmt::format("{} excused", c.excused());
-    if (c.at_edges > 0) text += fmt::format(": {} at edges that another rasterizer may cover so", c.at_edges);
+    std::vector<std::string> kinds;
+    if (c.at_edges > 0) kinds.push_back(fmt::format("{} at edges that another rasterizer may cover so", c.at_edges));
+    if (c.at_close_depths > 0)
+        kinds.push_back(fmt::format(
+            "{} where depths differ by at most 2 codes, so that their order and merging are open", c.at_close_depths));
     if (c.lost_at_ties > 0)
-        text += fmt::format("{} {} where fragments of one depth are lost or merged, as peels do",
-                            c.at_edges > 0 ? " and" : ":", c.lost_at_ties);
-    return text;
+        kinds.push_back(fmt::format("{} where fragments of one depth are lost or merged, as peels do", c.lost_at_ties));
+    return fmt::format("{} excused: {}", c.excused(), fmt::join(kinds, " and "));
 }
 
 }  // namespace
@@ -52,11 +54,12 @@ std::string first_line(const Verdict& v, const pipeline::DrawList& list) {
         return fmt::format("right: structure exact at all {}; {}", pixels(v.right.pixels), rounding_of(v.right));
     if (v.is_undecided()) return fmt::format("not decided: {}", v.doubt);
     if (v.alpha.state == AlphaState::wrong)
-        return fmt::format("wrong: alpha is not what the layers leave at {} of {}; their colours are right",
-                           v.alpha.wrong_pixels.size(), pixels(v.right.pixels));
+        return fmt::format("wrong: alpha is wrong at {} of {}; the colours are right", v.alpha.wrong_pixels.size(),
+                           pixels(v.right.pixels));
     if (v.explanations.empty())
-        return fmt::format("wrong: {} of {} are beyond what a right port reaches, and no one mistake explains them all",
-                           v.right.wrong_pixels.size(), pixels(v.right.pixels));
+        return fmt::format(
+            "wrong: {} of {} have values that no right port reaches, and no single mistake explains them all",
+            v.right.wrong_pixels.size(), pixels(v.right.pixels));
     if (v.explanations.size() == 1) return "wrong: " + description(v.explanations[0].account.rules, v.facts, list);
     return fmt::format("wrong: one of {} mistakes, which look the same here", v.explanations.size());
 }
@@ -71,15 +74,14 @@ const std::vector<std::uint32_t>& wrong_pixels(const Verdict& v) {
 // The pixels at which a mistake is visible.
 std::string reach_of(const CheckedAccount& c, const Verdict& v) {
     const std::uint64_t decided = c.changed - c.undecided;
-    std::string text = fmt::format("so at all {} that it changes", pixels(c.changed));
-    if (c.undecided > 0) text += fmt::format(" ({} of them decide it)", decided);
-    return text + fmt::format("; right at the other {}", v.right.pixels - c.changed);
+    std::string text = fmt::format("explains all {} that it affects", pixels(c.changed));
+    if (c.undecided > 0) text += fmt::format(" ({} exclude the right colour)", decided);
+    return text + fmt::format("; the other {} are right", v.right.pixels - c.changed);
 }
 
 std::string lead_of(const Lead& l, const Verdict& v, const pipeline::DrawList& list) {
-    return fmt::format(
-        "{} of {} wrong pixels that were looked at would come out so, and {} of {} right ones would not: {}",
-        l.explained, l.of, l.contradicted, l.right, description(l.rules, v.facts, list));
+    return fmt::format("explains {} of {} sampled wrong pixels, contradicts {} of {} sampled right ones: {}",
+                       l.explained, l.of, l.contradicted, l.right, description(l.rules, v.facts, list));
 }
 
 }  // namespace
@@ -91,7 +93,7 @@ std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
         if (v.explanations.size() > 1) add(description(c.account.rules, v.facts, list));
         add((v.explanations.size() > 1 ? "  " : "") + reach_of(c, v));
     }
-    if (!v.distinguishing_command.empty()) add("this tells them apart: " + v.distinguishing_command);
+    if (!v.distinguishing_command.empty()) add("this scene distinguishes them: " + v.distinguishing_command);
     const CheckedAccount& account = v.explanations.empty() ? v.right : v.explanations[0];
     if (v.equal_to.empty())
         add((v.right.is_whole() || !v.explanations.empty() ? "" : "closest: ") + describe(account.account.hypothesis));
@@ -110,11 +112,11 @@ std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
         add(fmt::format("the first wrong pixel is {},{}", first % width, first / width));
     }
     for (const Lead& lead : v.leads) add("lead: " + lead_of(lead, v, list));
-    if (v.is_stopped) add("the search was stopped at its limit: there may be mistakes that were not tried");
+    if (v.is_stopped) add("the search reached its limit: not all mistakes were tried");
     if (v.explanations.empty() && !v.alike.empty())
         add(
-            fmt::format("on this scene {} of {} mistakes of structure would look the same: strata diagnose --list "
-                        "--suite has scenes that show more",
+            fmt::format("on this scene {} of {} mistakes have the same picture: strata diagnose --list "
+                        "--suite lists scenes that show more of them",
                         v.alike.size(), v.kinds));
     return text;
 }
@@ -144,6 +146,7 @@ ordered_json json_of(const CheckedAccount& c, const Verdict& v, const pipeline::
                         {"slack", c.account.hypothesis.slack},
                         {"bits", c.bits}}},
                       {"at_edges", c.at_edges},
+                      {"at_close_depths", c.at_close_depths},
                       {"wrong", c.wrong_pixels.size()},
                       {"changed", c.changed},
                       {"undecided", c.undecided}};

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "scenes/numbers/srgb_encode.h"
-#include "tools/oracle/verdict/composite.h"
-#include "tools/oracle/verdict/structure.h"
+#include "tools/oracle/rounding/composite.h"
+#include "tools/oracle/rules/structure.h"
 
 namespace strata::oracle::verdict {
 
@@ -77,9 +77,9 @@ double unit_of(Storage storage) {
 }
 
 // A hypothesis about the samples, and the picture's storage.
-class Resolve {
+class SampleMean {
   public:
-    Resolve(const Hypothesis& hypothesis, const Colors& candidate)
+    SampleMean(const Hypothesis& hypothesis, const Colors& candidate)
         : compositor_{hypothesis},
           unit_{unit_of(storage_of(candidate.code()))},
           codes_{candidate.use().is_divided ? 1 : 0.5},
@@ -153,7 +153,7 @@ struct Cost {
         return a.wrong != b.wrong ? a.wrong < b.wrong : a.width < b.width;
     }
 };
-Cost cost_of(const Resolve& resolve, const std::vector<std::vector<Stack>>& stacks,
+Cost cost_of(const SampleMean& resolve, const std::vector<std::vector<Stack>>& stacks,
              const std::vector<const ResolvedPixel*>& pixels, const Cost& best) {
     Cost cost;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -204,7 +204,7 @@ std::string first_line(const ResolvedVerdict& v) {
             v.pixels, v.at_edges, v.possible);
     if (v.wrong_pixels.empty())
         return fmt::format(
-            "wrong: alpha is not the mean of what the layers of the samples leave at {} of {} pixels; "
+            "wrong: alpha is not the mean of the samples' alphas at {} of {} pixels; "
             "the colours are right",
             v.alpha.wrong_pixels.size(), v.pixels);
     return fmt::format("wrong: {} of {} pixels are not the mean of right samples{}", v.wrong_pixels.size(), v.pixels,
@@ -236,7 +236,7 @@ std::optional<SamplesAccount> closest(const std::vector<Hypothesis>& all, const 
         for (const ResolvedPixel* pixel : pixels) stacks.push_back(stacks_of(*pixel, ties_number(n), maker));
         if (stacks == previous) continue;  // no fragments have equal depths
         for (const Hypothesis& h : all) {
-            const Cost cost = cost_of(Resolve{h, candidate}, stacks, pixels, best);
+            const Cost cost = cost_of(SampleMean{h, candidate}, stacks, pixels, best);
             if (cost < best) best = cost, account = SamplesAccount{h, ties_number(n), cost.wrong};
         }
         previous = std::move(stacks);
@@ -247,7 +247,7 @@ std::optional<SamplesAccount> closest(const std::vector<Hypothesis>& all, const 
 ResolvedVerdict checked(const SamplesAccount& account, const Colors& candidate,
                         const std::vector<ResolvedPixel>& pixels, StackMaker& maker) {
     ResolvedVerdict verdict{.hypothesis = account.hypothesis, .pixels = pixels.size()};
-    const Resolve resolve{account.hypothesis, candidate};
+    const SampleMean resolve{account.hypothesis, candidate};
     for (const ResolvedPixel& pixel : pixels) {
         if (pixel.lists.empty()) continue;
         const bool at_edge = is_at_edge(pixel);
@@ -266,7 +266,7 @@ AlphaChecked checked_alpha(const SamplesAccount& account, const Colors& candidat
     AlphaChecked found{.background = setting.cleared[3], .is_told = setting.cleared[3] < 1};
     if (!candidate.has_alpha()) return found;
     const AlphaReach reach{account.hypothesis};
-    const Resolve resolve{account.hypothesis, candidate};
+    const SampleMean resolve{account.hypothesis, candidate};
     const int width = candidate.width();
     for (const ResolvedPixel& pixel : pixels) {
         if (pixel.lists.empty()) continue;

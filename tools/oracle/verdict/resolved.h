@@ -13,9 +13,9 @@
 #include <optional>
 #include <string>
 
-#include "tools/oracle/verdict/alpha.h"
-#include "tools/oracle/verdict/hypothesis.h"
-#include "tools/oracle/verdict/sample.h"
+#include "tools/oracle/fragments/sample.h"
+#include "tools/oracle/rounding/hypothesis.h"
+#include "tools/oracle/search/alpha.h"
 
 namespace strata::oracle::verdict {
 

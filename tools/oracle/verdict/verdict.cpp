@@ -1,64 +1,24 @@
+// tools/oracle/verdict/verdict.cpp - decides in this order: the closest account of the right structure; if it is whole,
+// what remains to be asked of a right picture (right_picture.h); wider rounding, if it costs about as little; reversed
+// rows or columns; one mistake in the whole picture, then in the part with the wrong pixels, then under wider rounding;
+// two mistakes; leads.
 #include "tools/oracle/verdict/verdict.h"
 
 #include <algorithm>
 #include <mutex>
 
-#include "rasterizer/base/parallel.h"
-#include "tools/oracle/verdict/doubt.h"
-#include "tools/oracle/verdict/pricing.h"
-#include "tools/oracle/verdict/search.h"
+#include "tools/oracle/rounding/doubt.h"
+#include "tools/oracle/rounding/pricing.h"
+#include "tools/oracle/search/search.h"
+#include "tools/oracle/verdict/right_picture.h"
 
 namespace strata::oracle::verdict {
 
 namespace {
 
-// Hypotheses by the possible error of colours and alpha, whose values are in [0, 1].
-struct Choices {
-    Families definite{};  // none, or some units in the last place of binary32
-    Families coarse{};    // interpolated or stored with fewer bits
-    Families loose{};     // as coarse, with blending errors of up to one code per layer
-};
-
-Choices choices(const Colors& candidate) {
-    const std::vector<double> fine{0, 0x1p-20}, coarse{0x1p-17, 0x1p-14, 0x1p-11, 0x1p-9};
-    const auto with = [&](const std::vector<double>& slacks, Looseness looseness) {
-        return families(storage_of(candidate.code()), slacks, looseness, candidate.use().is_divided);
-    };
-    return {with(fine, Looseness::definite), with(coarse, Looseness::definite), with(coarse, Looseness::loose)};
-}
-
 double bits_of(const CheckedAccount& c, Storage storage) {
     return c.bits + static_cast<double>(c.wrong_pixels.size()) * Pricing{storage}.of_wrong();
 }
-
-// The rules that also reach every pixel of the sample.
-std::vector<Rule> alike_in(const Sample& sample, const std::vector<Rule>& rules, const Hypothesis& hypothesis) {
-    std::vector<std::uint8_t> is_alike(rules.size(), 1);
-    parallel_for(rules.size(), 0, [&](std::size_t i) {
-        const Compositor compositor{hypothesis};
-        StackMaker maker{sample.setting()};
-        for (const SampledPixel& pixel : sample.pixels())
-            if (matching_ties(compositor, {&rules[i], 1}, pixel.list, pixel.value, maker).mask == 0) {
-                is_alike[i] = 0;
-                break;
-            }
-    });
-    std::vector<Rule> alike;
-    for (std::size_t i = 0; i < rules.size(); ++i)
-        if (is_alike[i] != 0) alike.push_back(rules[i]);
-    return alike;
-}
-
-void find_alike(const SceneFragments& scene, const Colors& candidate, Verdict& verdict) {
-    constexpr std::size_t most = 16384;
-    const std::vector<Rule> kinds = one_of_each_kind(verdict.facts);
-    verdict.kinds = kinds.size();
-    verdict.alike = alike_in(sampled(scene, candidate, most), kinds, verdict.right.account.hypothesis);
-}
-
-}  // namespace
-
-namespace {
 
 // The candidate's colour where nothing is drawn, if it is a single colour and not the background's.
 std::optional<Rgba> other_background(const SceneFragments& scene, const Colors& candidate) {
@@ -123,71 +83,6 @@ bool is_of_codes(const Hypothesis& h) {
     return has_codes(h.result.storage) || (has_codes(nearer.storage) && ends_in_codes);
 }
 
-// True if a right account needs no comparison with others, because its intervals are narrow: one code, or few bits per
-// pixel for floats.
-bool leaves_little_open(const CheckedAccount& right) {
-    const bool is_in_codes = has_codes(right.account.hypothesis.result.storage);
-    if (!is_in_codes && right.bits <= 4 * static_cast<double>(right.covered)) return true;
-    return right.possible <= 1 || (is_in_codes && right.observed <= 1);
-}
-
-// The pixels with the most layers, which contain the most information.
-Sample deepest(const Sample& sample, std::size_t most) {
-    std::vector<const SampledPixel*> deep;
-    for (const SampledPixel& pixel : sample.pixels()) deep.push_back(&pixel);
-    std::ranges::stable_sort(deep, std::ranges::greater{},
-                             [](const SampledPixel* p) { return p->list.visible.size(); });
-    Sample some{sample.setting()};
-    for (std::size_t i = 0; i < std::min(most, deep.size()); ++i) some.add(deep[i]->list, deep[i]->value);
-    some.sort();
-    return some;
-}
-
-// True if the intervals are at most two codes wide, as after another order of the same blends.
-bool is_narrow(const CheckedAccount& right) {
-    return has_codes(right.account.hypothesis.result.storage) && right.possible <= 2;
-}
-
-// Finds mistakes that explain the picture in fewer bits than a right account with wide intervals. If there are any,
-// fitting these intervals is no evidence that the picture is right.
-std::vector<CheckedAccount> told_better(const SceneFragments& scene, const Colors& candidate, const Choices& all,
-                                        const CheckedAccount& right, const Sample& even) {
-    // Another order of the same blends can change a value by two codes. Intervals so narrow fit few mistakes, and few
-    // pixels and hypotheses are enough to find these.
-    const bool is_few = is_narrow(right);
-    const std::size_t most = is_few ? 128 : 512, most_structures = is_few ? 512 : 4096;
-    AgainstRight against{.bits = right.bits};
-    if (is_few) against.most_rejected = 3;
-    constexpr double share = 0.95, least_bits = 64;
-    if (leaves_little_open(right)) return {};
-    const Sample deep = deepest(even, most).with_few_structures(most_structures);
-    const Families narrow = narrower(all.definite, right.account.hypothesis, deep);
-    std::vector<CheckedAccount> better = search_all(scene, candidate, narrow, deep, against);
-    std::erase_if(better, [&](const CheckedAccount& c) { return c.bits + least_bits > share * right.bits; });
-    return better;
-}
-
-// Mistakes that explain, without another rasterizer, what the right structure explains with one alone.
-std::vector<CheckedAccount> told_without_edges(const SceneFragments& scene, const Colors& candidate,
-                                               const Families& definite, const CheckedAccount& right,
-                                               const Sample& even) {
-    constexpr std::uint64_t fewest = 8;
-    constexpr std::size_t most = 48, most_structures = 512;
-    if (right.at_edges < fewest) return {};
-    Sample excused{scene.setting()};
-    static_cast<void>(check_all(scene, candidate, right.account, WrongPixels::some, excused));
-    Sample some = excused.thinned(most).with_few_structures(most_structures);
-    const Sample others = deepest(even, most).with_few_structures(most_structures);
-    for (const SampledPixel& pixel : others.pixels())
-        if (!some.has(pixel.list.x, pixel.list.y)) some.add(pixel.list, pixel.value);
-    some.sort();
-    std::vector<CheckedAccount> better = search_all(scene, candidate, definite, some, {.bits = right.bits});
-    std::erase_if(better, [&](const CheckedAccount& c) {
-        return 4 * c.at_edges > right.at_edges || c.bits >= right.bits || c.needing_many > right.needing_many;
-    });
-    return better;
-}
-
 // The account of the right structure that describes the picture, including its wrong pixels, in the fewest bits. The
 // hypothesis is chosen on a sample, then again with some of the wrong pixels added.
 CheckedAccount closest_account(const SceneFragments& scene, const Colors& candidate, const Families& definite,
@@ -233,50 +128,7 @@ std::optional<Region> region_of(const std::vector<std::uint32_t>& wrong, int wid
     return box;
 }
 
-}  // namespace
-
-namespace {
-
 constexpr std::size_t most_sampled = 2048;
-
-// What remains to be asked of a picture that the right structure reaches: whether a mistake explains it better, whether
-// rounding does, and its alpha.
-class RightPicture {
-  public:
-    RightPicture(const SceneFragments& scene, const Colors& candidate, const Choices& all, const SearchLimits& limits)
-        : scene_{scene},
-          candidate_{candidate},
-          all_{all},
-          narrower_{limits.narrower + limits.of_fragment * scene.count()},
-          of_edges_{limits.narrower / 30 + limits.of_fragment * scene.count()} {}
-
-    [[nodiscard]] Verdict decide(Verdict verdict, CheckedAccount&& right, const Sample& even) const {
-        Work& work = *scene_.setting().work;
-        verdict.right = std::move(right);
-        work.allow(of_edges_);
-        verdict.explanations = told_without_edges(scene_, candidate_, all_.definite, verdict.right, even);
-        work.restart();
-        work.allow(narrower_);
-        if (verdict.explanations.empty())
-            verdict.explanations = told_better(scene_, candidate_, all_, verdict.right, even);
-        verdict.is_stopped = work.is_cut_short();
-        if (!verdict.explanations.empty()) return verdict;
-        work.restart();
-        verdict.doubt = doubt_of(scene_, candidate_, verdict.right, all_.definite);
-        if (verdict.is_stopped && verdict.doubt.empty())
-            verdict.doubt = "a right port may leave all pixels, but not all mistakes were tried";
-        find_alike(scene_, candidate_, verdict);
-        verdict.alpha = check_alpha(scene_, candidate_, verdict.right.account.hypothesis);
-        verdict.is_right = verdict.doubt.empty() && verdict.alpha.state != AlphaState::wrong;
-        return verdict;
-    }
-
-  private:
-    const SceneFragments& scene_;
-    const Colors& candidate_;
-    const Choices& all_;
-    std::uint64_t narrower_, of_edges_;
-};
 
 // Prepares a scene for a verdict.
 void restart(SceneFragments& scene) {
@@ -291,6 +143,7 @@ std::optional<Verdict> judge_quickly(SceneFragments& scene, const Colors& candid
     restart(scene);
     const Choices all = choices(candidate);
     const RightPicture picture{scene, candidate, all, limits};
+    scene.setting().work->begin_stage(0.1, 0.2);
     for (const bool is_shown : {false, true}) {
         if (is_shown && scene.count_at_far_plane() == 0) break;
         scene.show_at_far_plane(is_shown);
@@ -326,7 +179,9 @@ Verdict found_at_length(SceneFragments& scene, const Colors& candidate, const Se
     const Choices all = choices(candidate);
     const RightPicture picture{scene, candidate, all, limits};
     Verdict verdict{.width = scene.width()};
+    work.begin_stage(0.2, 0.4);
     scene.find_coverages();
+    work.begin_stage(0.4, 0.5);
     const Sample even = sampled(scene, candidate, most_sampled);
     scene.set_seen_background(other_background(scene, candidate));
     verdict.facts = facts_of(scene, even);
@@ -356,6 +211,7 @@ Verdict found_at_length(SceneFragments& scene, const Colors& candidate, const Se
         return verdict;
     }
     sample = sample.with_few_structures(most_structures);
+    work.begin_stage(0.6, 0.8);
     work.allow(limits.mistakes + of_fragments);
     const auto is_found = [&](const Families& some, int most_rules, const Region& region) {
         verdict.explanations = search(scene, candidate, some, verdict.right, sample, most_rules, region);
@@ -367,6 +223,7 @@ Verdict found_at_length(SceneFragments& scene, const Colors& candidate, const Se
         if (is_found(all.definite, 1, *region)) return verdict;
     if (is_found(all.coarse, 1, {}) || is_found(all.definite, 2, {})) return verdict;
     if (doubtful) return *std::move(doubtful);
+    work.begin_stage(0.8, 0.9);
     work.allow(limits.leads);
     verdict.leads = leads(scene, verdict.right, sample);
     // The search may have stopped before it tried a mistake that explains all pixels that were looked at.
@@ -391,7 +248,7 @@ Verdict judge_at_length(SceneFragments& scene, const Colors& candidate, const Se
         return has_codes(c.account.hypothesis.result.storage) && c.observed > most_codes_of_right;
     });
     if (wide > 0 && verdict.explanations.empty() && verdict.right.is_whole())
-        verdict.doubt = "a mistake explains the picture better, but only with rounding of more than 5 codes";
+        verdict.doubt = "a mistake explains the picture better, but needs rounding of more than 5 codes";
     sort_explanations(verdict);
     return verdict;
 }

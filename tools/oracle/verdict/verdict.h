@@ -12,9 +12,9 @@
 #include <optional>
 #include <string>
 
-#include "tools/oracle/verdict/account.h"
-#include "tools/oracle/verdict/alpha.h"
-#include "tools/oracle/verdict/rules.h"
+#include "tools/oracle/rules/rules.h"
+#include "tools/oracle/search/account.h"
+#include "tools/oracle/search/alpha.h"
 
 namespace strata::oracle::verdict {
 

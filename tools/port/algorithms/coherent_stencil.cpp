@@ -205,7 +205,7 @@ void composite(const CoherentTargets& t, Record* record) {
     show(t, "geometry", t.breaker, end, record);
 }
 
-int coherent_stencil(const CoherentTargets& t, int max_passes, Image& picture, Record* record) {
+int coherent_stencil(const CoherentTargets& t, int max_passes, PixelCodes& picture, Record* record) {
     t.opaque.draw(t.input.scene);
     const std::array<float, 4> transparent{0, 0, 0, t.input.settings.transmittance_start};
     glBindFramebuffer(GL_FRAMEBUFFER, t.composite.name());
@@ -230,7 +230,7 @@ int coherent_stencil(const CoherentTargets& t, int max_passes, Image& picture, R
 
 Job coherent_stencil_job(const JobInput& input) {
     const auto t = std::make_shared<CoherentTargets>(input);
-    return {"coherent_stencil", [t](Image& picture, int max_passes, Record* record) {
+    return {"coherent_stencil", [t](PixelCodes& picture, int max_passes, Record* record) {
                 return coherent_stencil(*t, max_passes, picture, record);
             }};
 }

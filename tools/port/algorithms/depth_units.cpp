@@ -102,7 +102,7 @@ void composite(const UnitTargets& t, const std::vector<Layer>& layers, std::size
     }
 }
 
-int depth_units(const UnitTargets& t, int max_passes, Image& picture, Record* record) {
+int depth_units(const UnitTargets& t, int max_passes, PixelCodes& picture, Record* record) {
     const TargetFormats& formats = t.input.formats;
     t.opaque.draw(t.input.scene);
     std::vector<Layer> layers;
@@ -131,7 +131,7 @@ int depth_units(const UnitTargets& t, int max_passes, Image& picture, Record* re
 
 Job depth_units_job(const JobInput& input) {
     const auto t = std::make_shared<UnitTargets>(input);
-    return {"depth_units", [t](Image& picture, int max_passes, Record* record) {
+    return {"depth_units", [t](PixelCodes& picture, int max_passes, Record* record) {
                 return depth_units(*t, max_passes, picture, record);
             }};
 }

@@ -183,7 +183,7 @@ void show(const DualTargets& t, const std::string& kind, std::optional<std::uint
 }
 
 // Peels to the last layer, or to `max_passes` geometry passes. Returns the number of geometry passes.
-int dual(const DualTargets& t, int max_passes, Image& picture, Record* record) {
+int dual(const DualTargets& t, int max_passes, PixelCodes& picture, Record* record) {
     initialize(t, record);
     int passes = 1;
     std::size_t last = 0;
@@ -207,7 +207,7 @@ int dual(const DualTargets& t, int max_passes, Image& picture, Record* record) {
 
 Job dual_job(const JobInput& input) {
     const auto t = std::make_shared<DualTargets>(input);
-    return {"dual", [t](Image& picture, int max_passes, Record* record) {
+    return {"dual", [t](PixelCodes& picture, int max_passes, Record* record) {
                 const int lost = t->input.settings.passes_left_out;
                 if (lost > 0) max_passes = dual(*t, max_passes, picture, nullptr) - lost;
                 return dual(*t, max_passes, picture, record);

@@ -92,7 +92,7 @@ void main() {{
                       through),
           {"front_target", "behind_target"})} {}
 
-void Finish::draw(GLuint front, GLuint behind, Image& picture, Record* record) const {
+void Finish::draw(GLuint front, GLuint behind, PixelCodes& picture, Record* record) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     glDisable(GL_BLEND);
     if (input_.settings.encoded_again) glEnable(GL_FRAMEBUFFER_SRGB);
@@ -108,10 +108,10 @@ Format picture_format(const JobInput& input) {
     return is_encoded && input.formats.color == rgba8 ? srgb8 : input.formats.color;
 }
 
-Image read_picture(GLuint texture, const JobInput& input) {
+PixelCodes read_picture(GLuint texture, const JobInput& input) {
     Format read = picture_format(input);
     read.external = input.settings.channel_order;
-    Image picture = read_back(texture, read, input.size);
+    PixelCodes picture = read_back(texture, read, input.size);
     picture.format = input.formats.color;
     return picture;
 }

@@ -40,7 +40,7 @@ class Finish {
   public:
     Finish(const JobInput& input, const std::string& through);
     // Draws the quad and reads it back.
-    void draw(GLuint front, GLuint behind, Image& picture, Record* record) const;
+    void draw(GLuint front, GLuint behind, PixelCodes& picture, Record* record) const;
 
   private:
     JobInput input_;
@@ -50,7 +50,7 @@ class Finish {
 // Of the finished target: the frame's, or srgb8 for a port that has such a target by mistake.
 [[nodiscard]] Format picture_format(const JobInput& input);
 // Reads a finished target of picture_format() in the form of the port's results.
-[[nodiscard]] Image read_picture(GLuint texture, const JobInput& input);
+[[nodiscard]] PixelCodes read_picture(GLuint texture, const JobInput& input);
 
 // GLSL: `float stored(float z)`, a depth as the driver stores it and reads it back: the code times the binary32
 // reciprocal of the greatest code, which for d24 may differ from the quotient. If z were compared directly, a fragment

@@ -104,7 +104,7 @@ void show(const PeelTargets& t, const std::string& kind, int pass, std::optional
 
 // Peels to the last layer, or to `max_passes` geometry passes. Returns the number of geometry passes, including the
 // empty last one.
-int front_to_back(const PeelTargets& t, int max_passes, Image& picture, Record* record) {
+int front_to_back(const PeelTargets& t, int max_passes, PixelCodes& picture, Record* record) {
     t.opaque.draw(t.input.scene);
     const std::array<float, 4> transparent{0, 0, 0, t.input.settings.transmittance_start};
     glBindFramebuffer(GL_FRAMEBUFFER, t.under.name());
@@ -129,7 +129,7 @@ int front_to_back(const PeelTargets& t, int max_passes, Image& picture, Record* 
 
 Job front_to_back_job(const JobInput& input) {
     const auto t = std::make_shared<PeelTargets>(input);
-    return {"front_to_back", [t](Image& picture, int max_passes, Record* record) {
+    return {"front_to_back", [t](PixelCodes& picture, int max_passes, Record* record) {
                 // A port that loses its last layer knows the number of layers: the empty pass is not one.
                 const int lost = t->input.settings.passes_left_out;
                 if (lost > 0) max_passes = front_to_back(*t, max_passes, picture, nullptr) - 1 - lost;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/port/gpu_scene.h"
+#include "tools/port/gl/gpu_scene.h"
 
 namespace strata::port {
 
@@ -31,7 +31,7 @@ struct NamedTexture {
 };
 struct NamedPicture {
     std::string name;
-    Image image;
+    PixelCodes image;
 };
 
 // Every target after a pass, as read back, and the result of the pass's query.
@@ -44,7 +44,7 @@ struct PassReport {
 // The recorded passes and layers of a run.
 struct Record {
     std::vector<PassReport> passes{};
-    std::vector<std::array<Image, 2>> layers{};  // colour and depth, nearest first
+    std::vector<std::array<PixelCodes, 2>> layers{};  // colour and depth, nearest first
 };
 // True if layers are recorded: not of all samples, because a depth of several samples has no resolve.
 [[nodiscard]] bool keeps_layers(const Record* record);
@@ -57,7 +57,7 @@ struct Job {
     std::string name;
     // From the first clear to finished pixels in client memory; returns the geometry passes, at most `max_passes`.
     // `record` may be nullptr.
-    std::function<int(Image& picture, int max_passes, Record* record)> draw;
+    std::function<int(PixelCodes& picture, int max_passes, Record* record)> draw;
 };
 
 // depth, front_to_back, dual, weighted_average (by repeated squaring; and by GLSL's pow), coherent_stencil,

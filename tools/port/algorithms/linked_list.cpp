@@ -136,7 +136,7 @@ void make_empty(const ListTargets& t) {
                  GL_DYNAMIC_COPY);
 }
 
-void draw_lists(const ListTargets& t, Image& picture, Record* record) {
+void draw_lists(const ListTargets& t, PixelCodes& picture, Record* record) {
     t.opaque.draw(t.input.scene);
     make_empty(t);
     glBindFramebuffer(GL_FRAMEBUFFER, t.framebuffer.name());
@@ -159,7 +159,7 @@ void draw_lists(const ListTargets& t, Image& picture, Record* record) {
 
 Job linked_list_job(const JobInput& input) {
     const auto t = std::make_shared<ListTargets>(input);
-    return {"linked_list", [t](Image& picture, int, Record* record) {
+    return {"linked_list", [t](PixelCodes& picture, int, Record* record) {
                 draw_lists(*t, picture, record);
                 return 1;
             }};

@@ -111,7 +111,7 @@ void resolve(const AverageTargets& t) {
 
 Job average_job(const std::string& name, const JobInput& input, const std::string& power, Adds adds) {
     const auto t = std::make_shared<AverageTargets>(input, power);
-    return {name, [t, adds](Image& picture, int, Record* record) {
+    return {name, [t, adds](PixelCodes& picture, int, Record* record) {
                 accumulate(*t, adds);
                 show_pass(record, t->input.size, "geometry",
                           {{"sums", t->sums.name(), t->sums_format}, {"count", t->count.name(), t->count_format}});
@@ -139,7 +139,7 @@ struct DepthTargets {
 
 Job depth_job(const JobInput& input) {
     const auto t = std::make_shared<DepthTargets>(input);
-    return {"depth", [t](Image& picture, int, Record*) {
+    return {"depth", [t](PixelCodes& picture, int, Record*) {
                 glBindFramebuffer(GL_FRAMEBUFFER, t->framebuffer.name());
                 glDisable(GL_BLEND);
                 glEnable(GL_DEPTH_TEST);
@@ -167,7 +167,7 @@ Job weighted_average_pow_job(const JobInput& input) {
 // The sums themselves, before the resolve.
 Job sums_job(const JobInput& input) {
     const auto t = std::make_shared<AverageTargets>(input, "power");
-    return {"sums", [t](Image& picture, int, Record*) {
+    return {"sums", [t](PixelCodes& picture, int, Record*) {
                 accumulate(*t, Adds::all);
                 picture = read_back(t->sums.name(), t->sums_format, t->input.size);
                 return 1;
@@ -186,7 +186,7 @@ std::vector<std::uint32_t> count_fragments(const GpuScene& scene, Size size) {
     glBlendFunc(GL_ONE, GL_ONE);
     glUseProgram(program.name());
     scene.draw();
-    const Image image = read_back(count.name(), r32f, size);
+    const PixelCodes image = read_back(count.name(), r32f, size);
     std::vector<float> sums(size.area());
     std::memcpy(sums.data(), image.bytes.data(), image.bytes.size());
     return {sums.begin(), sums.end()};

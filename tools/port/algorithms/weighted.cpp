@@ -49,11 +49,11 @@ void main() {{
 Format sums_format(const JobInput& in) { return in.formats.color == rgba32f ? rgba32f : rgba16f; }
 
 // The last quad of both algorithms, over the opaque colour.
-struct Resolve {
+struct ResolvePass {
     JobInput input;
     Handle result, framebuffer, program;
 
-    Resolve(const JobInput& in, const std::string& functions, const std::string& through)
+    ResolvePass(const JobInput& in, const std::string& functions, const std::string& through)
         : input{in},
           result{make_texture(in.formats.color, in.size)},
           framebuffer{make_framebuffer({result.name()})},
@@ -64,7 +64,7 @@ struct Resolve {
                               through),
               {"sums", "left_target", "behind_target"})} {}
 
-    void draw(GLuint sums, GLuint left, GLuint behind, Image& picture, Record* record) const {
+    void draw(GLuint sums, GLuint left, GLuint behind, PixelCodes& picture, Record* record) const {
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
         glDisable(GL_BLEND);
         bind({sums, left, behind});
@@ -95,7 +95,7 @@ struct BlendedTargets {
     Format format, revealage_format;
     Opaque opaque;
     Handle sums, revealage, framebuffer, program;
-    Resolve resolve;
+    ResolvePass resolve;
 
     explicit BlendedTargets(const JobInput& in)
         : input{in},
@@ -109,7 +109,7 @@ struct BlendedTargets {
           resolve{in, "", "left"} {}
 };
 
-void draw_blended(const BlendedTargets& t, Image& picture, Record* record) {
+void draw_blended(const BlendedTargets& t, PixelCodes& picture, Record* record) {
     constexpr std::array<float, 4> all_through{1, 1, 1, 1};
     t.opaque.draw(t.input.scene);
     begin_sums(t.framebuffer);
@@ -127,7 +127,7 @@ struct MomentTargets {
     Format format;
     Opaque opaque;
     Handle total, powers, sums, build, accumulate, build_program, accumulate_program;
-    Resolve resolve;
+    ResolvePass resolve;
 
     MomentTargets(const JobInput& in, const std::string& log_exp)
         : input{in},
@@ -144,7 +144,7 @@ struct MomentTargets {
           resolve{in, log_exp, "left >= minus_log(5.9604644775390625e-8) ? 0.0 : exp_of_minus(left)"} {}
 };
 
-void draw_moments(const MomentTargets& t, Image& picture, Record* record) {
+void draw_moments(const MomentTargets& t, PixelCodes& picture, Record* record) {
     t.opaque.draw(t.input.scene);
     begin_sums(t.build);
     glClearBufferfv(GL_COLOR, 0, zero.data());
@@ -162,7 +162,7 @@ void draw_moments(const MomentTargets& t, Image& picture, Record* record) {
 
 Job moments_of(const std::string& name, const JobInput& input, const char* log_exp) {
     const auto t = std::make_shared<MomentTargets>(input, log_exp);
-    return {name, [t](Image& picture, int, Record* record) {
+    return {name, [t](PixelCodes& picture, int, Record* record) {
                 draw_moments(*t, picture, record);
                 return 2;
             }};
@@ -172,7 +172,7 @@ Job moments_of(const std::string& name, const JobInput& input, const char* log_e
 
 Job weighted_blended_job(const JobInput& input) {
     const auto t = std::make_shared<BlendedTargets>(input);
-    return {"weighted_blended", [t](Image& picture, int, Record* record) {
+    return {"weighted_blended", [t](PixelCodes& picture, int, Record* record) {
                 draw_blended(*t, picture, record);
                 return 1;
             }};

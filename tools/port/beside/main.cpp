@@ -15,7 +15,7 @@
 #include "scenes/files/profile_json.h"
 #include "tools/port/algorithms/frame.h"
 #include "tools/port/beside/reference.h"
-#include "tools/port/context.h"
+#include "tools/port/gl/context.h"
 
 namespace strata::port {
 
@@ -88,7 +88,7 @@ ordered_json first_difference(const pipeline::Image& theirs, const pipeline::Ima
 }
 
 // Wall-clock seconds of one run. It ends by reading the pixels back, so nothing remains in llvmpipe's queues.
-double seconds_of(const Job& job, Image& pixels, int most_passes, int& passes) {
+double seconds_of(const Job& job, PixelCodes& pixels, int most_passes, int& passes) {
     const auto start = std::chrono::steady_clock::now();
     passes = job.draw(pixels, most_passes, nullptr);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -96,7 +96,7 @@ double seconds_of(const Job& job, Image& pixels, int most_passes, int& passes) {
 
 // Two passes compile every program and touch every target; further warm-up runs follow for `warm_up`. Then runs are
 // timed until `budget` is spent.
-ordered_json measure(const Job& job, const Options& options, Image& pixels) {
+ordered_json measure(const Job& job, const Options& options, PixelCodes& pixels) {
     // More passes than any scene has layers.
     constexpr int all = 1000000;
     ordered_json seconds = ordered_json::array();
@@ -114,7 +114,7 @@ ordered_json measure(const Job& job, const Options& options, Image& pixels) {
 // Compares peels that stop after 1, 2, 3 ... geometry passes on both sides, so that their pictures show every layer.
 ordered_json compare_each_pass(const Job& job, const Options& options, const Subject& subject,
                                const pipeline::DeviceProfile& profile, int passes) {
-    Image pixels;
+    PixelCodes pixels;
     std::size_t differ = 0, pictures = 0;
     for (int most = 1; most < std::min(passes, options.each_pass + 1); ++most, ++pictures) {
         static_cast<void>(job.draw(pixels, most, nullptr));
@@ -126,7 +126,7 @@ ordered_json compare_each_pass(const Job& job, const Options& options, const Sub
 
 // Measures a job and prints its line of JSON immediately, because the caller pairs runs of two programs.
 void run(const Job& job, const Options& options, const Subject& subject, const pipeline::DeviceProfile& profile) {
-    Image pixels;
+    PixelCodes pixels;
     ordered_json line = measure(job, options, pixels);
     const pipeline::Image image = as_image(pixels);
     line["digest"] = pipeline::digest(image);

@@ -60,7 +60,7 @@ pipeline::Format strata_format(const Format& format) {
     throw std::invalid_argument(std::string("a format that no job stores: ") + format.name);
 }
 
-pipeline::Image as_image(const Image& image) {
+pipeline::Image as_image(const PixelCodes& image) {
     pipeline::Image codes(strata_format(image.format), image.size.width, image.size.height);
     const auto bytes = static_cast<std::size_t>(image.format.bytes);
     for (std::size_t i = 0; i < codes.codes.size(); ++i) {

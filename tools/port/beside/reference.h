@@ -40,7 +40,7 @@ struct FragmentCounts {
 
 // Strata's format with the same bits, and the codes of a picture that was read back.
 [[nodiscard]] pipeline::Format strata_format(const Format& format);
-[[nodiscard]] pipeline::Image as_image(const Image& image);
+[[nodiscard]] pipeline::Image as_image(const PixelCodes& image);
 
 // Strata's picture for a job.
 struct Rendered {

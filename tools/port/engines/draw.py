@@ -3,7 +3,7 @@
 
     draw.py ENGINE PACK -o PICTURE [--way WAY] [--peels N] [--targets FOLDER]
 
-PICTURE ends in .png or .npy; a picture of floats is .npy. --targets writes a candidate (tools/oracle/PACK.md): Babylon's targets after
+PICTURE ends in .png or .npy; a picture of floats is .npy. --targets writes a candidate (tools/oracle/pack/PACK.md): Babylon's targets after
 every pass. Exit status 2, and a sentence, if the pack has something that the engine cannot render here; 77 if a program or a package is missing.
 """
 import argparse

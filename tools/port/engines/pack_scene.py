@@ -1,6 +1,6 @@
 """Reads a golden pack as input of an engine: meshes with one colour per vertex, two matrices, a size and a background.
 
-Shapes as in tools/oracle/PACK.md: matrices are 16 numbers, column by column; colours are straight and encoded, 0 to 1; triangles are indices of the
+Shapes as in tools/oracle/pack/PACK.md: matrices are 16 numbers, column by column; colours are straight and encoded, 0 to 1; triangles are indices of the
 mesh's own vertices. Numbers are exactly those of the pack. Needs only the standard library.
 """
 import array

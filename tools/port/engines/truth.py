@@ -72,7 +72,7 @@ def of_scene(engine, way, scene, is_wrong):
 CANNOT = {("molstar", "gradient")}
 
 # A wrong picture that no listed mistake explains is called wrong without a name.
-UNNAMED = "no one mistake explains them all"
+UNNAMED = "no single mistake explains them all"
 NOT_DECIDED = "not decided:"
 JUDGMENTS = ["true", "not decided", "wrong without a name", "right called wrong without a name", "false"]
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/port/objects.h"
+#include "tools/port/gl/objects.h"
 
 namespace strata::port {
 

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tools/port/context.h"
-#include "tools/port/npy.h"
+#include "tools/port/gl/context.h"
+#include "tools/port/gl/npy.h"
 #include "tools/port/probe/kit.h"
 #include "tools/port/probe/painter.h"
 #include "tools/port/probe/samples.h"

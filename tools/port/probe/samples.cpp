@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "tools/port/npy.h"
+#include "tools/port/gl/npy.h"
 
 namespace strata::port {
 
@@ -76,8 +76,8 @@ ordered_json SampledTarget::positions() const {
     return all;
 }
 
-Image SampledTarget::color(int sample) const { return read_sample(color_.name(), sample, rgba8, size_); }
-Image SampledTarget::depth(int sample) const { return read_sample(depth_.name(), sample, r32f, size_); }
+PixelCodes SampledTarget::color(int sample) const { return read_sample(color_.name(), sample, rgba8, size_); }
+PixelCodes SampledTarget::depth(int sample) const { return read_sample(depth_.name(), sample, r32f, size_); }
 
 ordered_json answer_samples(const Kit& kit, const Painter& painter, int samples, const std::string& folder) {
     const SampledTarget target({1, 1}, samples);

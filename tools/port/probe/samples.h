@@ -22,8 +22,8 @@ class SampledTarget {
     // most devices.
     [[nodiscard]] nlohmann::ordered_json positions() const;
     // The codes of one sample of each pixel.
-    [[nodiscard]] Image color(int sample) const;
-    [[nodiscard]] Image depth(int sample) const;
+    [[nodiscard]] PixelCodes color(int sample) const;
+    [[nodiscard]] PixelCodes depth(int sample) const;
 
   private:
     Size size_;

@@ -1,6 +1,6 @@
 // source/results.cpp - the Python classes of pictures, layers, passes, fragments, histories and comparisons.
 #include <strata/scenes/files/image_io.h>
-#include <strata/tools/oracle/drawings.h>
+#include <strata/tools/oracle/compare/drawings.h>
 
 #include "bindings.h"
 

@@ -1,6 +1,6 @@
 // tools/strata/compare/compare.cpp - strata compare: compares a candidate with a reference picture, a golden pack or a
 // scene, and reports the differences or a verdict.
-#include "tools/oracle/compare.h"
+#include "tools/oracle/compare/compare.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -12,10 +12,10 @@
 #include "scenes/files/image_io.h"
 #include "scenes/memory_limit.h"
 #include "scenes/packs/pack_scene.h"
-#include "tools/oracle/drawings.h"
+#include "tools/oracle/compare/drawings.h"
+#include "tools/oracle/compare/report.h"
 #include "tools/oracle/pack/compare_packs.h"
-#include "tools/oracle/report.h"
-#include "tools/oracle/stored_like.h"
+#include "tools/oracle/picture/stored_like.h"
 #include "tools/strata/command.h"
 #include "tools/strata/compare/compare_pages.h"
 #include "tools/strata/compare/compare_scene.h"

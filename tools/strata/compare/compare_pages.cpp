@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "tools/oracle/drawings.h"
-#include "tools/oracle/report.h"
+#include "tools/oracle/compare/drawings.h"
+#include "tools/oracle/compare/report.h"
 #include "tools/strata/messages.h"
 
 namespace strata::tools {

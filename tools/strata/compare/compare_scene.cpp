@@ -16,16 +16,17 @@
 #include "scenes/models/models.h"
 #include "scenes/packs/pack_scene.h"
 #include "scenes/packs/plain_triangles.h"
-#include "tools/oracle/drawings.h"
+#include "tools/oracle/compare/drawings.h"
+#include "tools/oracle/compare/report.h"
 #include "tools/oracle/judge/forgotten.h"
 #include "tools/oracle/judge/samples_verdict.h"
-#include "tools/oracle/mistakes/suite.h"
-#include "tools/oracle/report.h"
-#include "tools/oracle/stored_like.h"
-#include "tools/oracle/verdict/distinguish_rules.h"
-#include "tools/oracle/verdict/edits.h"
+#include "tools/oracle/picture/stored_like.h"
+#include "tools/oracle/rules/distinguish_rules.h"
+#include "tools/oracle/search/edits.h"
+#include "tools/oracle/suite/suite.h"
 #include "tools/oracle/verdict/picture_verdict.h"
 #include "tools/strata/compare/compare_pages.h"
+#include "tools/strata/progress.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/table.h"
 
@@ -244,16 +245,31 @@ ShownVerdict shown(const oracle::SamplesVerdict& verdict, std::string text) {
                                     : "Wrong pixels: pink, or grey if alpha alone is wrong"};
 }
 
+oracle::ShowProgress shares_of(Progress& bar) {
+    return [&bar](double share) { bar.show(share); };
+}
+
+std::vector<std::string> forgotten(const SceneQuestion& question, const oracle::RunInput& input, const auto& verdict) {
+    Progress bar("options of the view");
+    return oracle::forgotten_options(input, verdict, camera_in_words(question.run), shares_of(bar));
+}
+
 // The verdict on a picture with several samples per pixel.
 int compare_resolved(const SceneQuestion& question, const Session& session, const oracle::Picture& candidate) {
     const oracle::Target& colors = colors_of(candidate);
     const oracle::RunInput input{session.scene.list,  session.view,           session.profile,
                                  question.run.render, sampling(question.run), question.run.scene_options.color_space};
-    const oracle::SamplesVerdict verdict = judge_samples(input, {colors, question.is_form_stated, question.has_alpha});
-    const std::vector<std::string> forgotten = oracle::forgotten_options(input, verdict, camera_in_words(question.run));
-    const std::string text = oracle::with_forgotten(to_text(verdict), forgotten);
+    const oracle::SamplesVerdict verdict = [&] {
+        Progress bar("verdict");
+        return judge_samples(input, {.colors = colors,
+                                     .is_form_stated = question.is_form_stated,
+                                     .has_alpha = question.has_alpha,
+                                     .progress = shares_of(bar)});
+    }();
+    const std::vector<std::string> hints = forgotten(question, input, verdict);
+    const std::string text = oracle::with_forgotten(to_text(verdict), hints);
     write_files(question, session, candidate, shown(verdict, text));
-    print(question.json ? oracle::json_with_forgotten(to_json(verdict), forgotten) : with_painted_verdicts(text));
+    print(question.json ? oracle::json_with_forgotten(to_json(verdict), hints) : with_painted_verdicts(text));
     return verdict.found.is_right() ? 0 : 1;
 }
 
@@ -263,12 +279,14 @@ namespace {
 
 oracle::verdict::PictureVerdict judged(const SceneQuestion& question, const oracle::RunInput& input,
                                        const oracle::Target& colors) {
+    Progress bar("verdict");
     return oracle::verdict::judge_picture(
         input, {.colors = colors,
                 .is_form_stated = question.is_form_stated,
                 .has_alpha = question.has_alpha,
                 .is_frame_linear = question.run.scene_options.color_space == pipeline::ColorSpace::linear,
-                .algorithm = question.algorithm.empty() ? nullptr : question.run.algorithms[0]});
+                .algorithm = question.algorithm.empty() ? nullptr : question.run.algorithms[0],
+                .progress = shares_of(bar)});
 }
 
 // Whether a picture with decoded colours, or blended in linear light, is right with --color-space linear.
@@ -300,10 +318,10 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
     oracle::verdict::PictureVerdict verdict = judged(question, input, colors);
     verdict.reading += if_linear(question, verdict.found, candidate);
     verdict.found.distinguishing_command = distinguishing_command(verdict.found);
-    const std::vector<std::string> forgotten = oracle::forgotten_options(input, verdict, camera_in_words(question.run));
-    const std::string text = oracle::with_forgotten(to_text(verdict, list), forgotten);
+    const std::vector<std::string> hints = forgotten(question, input, verdict);
+    const std::string text = oracle::with_forgotten(to_text(verdict, list), hints);
     write_files(question, session, candidate, shown(verdict, list, text));
-    print(question.json ? oracle::json_with_forgotten(to_json(verdict, list, session.profile.name), forgotten)
+    print(question.json ? oracle::json_with_forgotten(to_json(verdict, list, session.profile.name), hints)
                         : with_painted_verdicts(text));
     return verdict.is_right() ? 0 : 1;
 }

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "tools/oracle/picture.h"
+#include "tools/oracle/picture/picture.h"
 #include "tools/strata/options/options.h"
 #include "tools/strata/render/run.h"
 

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 
-#include "tools/oracle/compare.h"
+#include "tools/oracle/compare/compare.h"
 
 namespace strata::tools {
 

@@ -12,13 +12,13 @@
 #include "scenes/files/picture_attributes.h"
 #include "scenes/files/profile_json.h"
 #include "scenes/packs/pack_scene.h"
+#include "tools/oracle/diagnosis/diagnosis_report.h"
+#include "tools/oracle/diagnosis/distinguishing_scene.h"
+#include "tools/oracle/diagnosis/scenes_diagnosis.h"
 #include "tools/oracle/judge/diagnose_picture.h"
-#include "tools/oracle/mistakes/diagnosis_report.h"
-#include "tools/oracle/mistakes/distinguishing_scene.h"
-#include "tools/oracle/mistakes/scenes_diagnosis.h"
 #include "tools/oracle/pack/manifest_value.h"
 #include "tools/oracle/pack/pack_pictures.h"
-#include "tools/oracle/stored_like.h"
+#include "tools/oracle/picture/stored_like.h"
 #include "tools/strata/command.h"
 #include "tools/strata/compare/compare_pages.h"
 #include "tools/strata/compare/compare_scene.h"
@@ -155,9 +155,9 @@ oracle::ShowProgress shown_by(Progress& bar) {
 }
 
 // The exit status: 0 for a right picture, 1 for any mistake, known or not.
-int status_of(oracle::Verdict verdict) {
-    using enum oracle::Verdict;
-    return verdict == right || verdict == other_options || verdict == right_structure ? 0 : 1;
+int status_of(oracle::Conclusion conclusion) {
+    using enum oracle::Conclusion;
+    return conclusion == right || conclusion == other_options || conclusion == right_structure ? 0 : 1;
 }
 
 // Finds the scene of the suite that distinguishes the remaining mistakes: those that produce the same picture, or the
@@ -166,39 +166,45 @@ void find_distinguishing_scene(oracle::Diagnosis& found) {
     constexpr std::size_t most = 4;
     std::vector<const oracle::Mistake*> mistakes;
     const oracle::Finding& best = found.findings.front();
-    if (found.verdict == oracle::Verdict::one_mistake) {
+    if (found.conclusion == oracle::Conclusion::one_mistake) {
         mistakes = best.mistakes;
         mistakes.insert(mistakes.end(), best.alike.begin(), best.alike.end());
-    } else if (found.verdict == oracle::Verdict::unknown_mistake && found.structure.empty()) {
+    } else if (found.conclusion == oracle::Conclusion::unknown_mistake && found.structure.empty()) {
         for (const oracle::Finding& f : found.findings)
             if (f.mistakes.size() == 1 && f.explained > 0 && mistakes.size() < most) mistakes.push_back(f.mistakes[0]);
     }
     found.distinguishing_scene = oracle::distinguishing_scene(mistakes);
 }
 
+// The bars are wiped before the result is printed.
+oracle::PictureDiagnosis diagnosed(const OpenCase& opened, const DiagnoseOptions& options) {
+    const std::vector<pipeline::DeviceProfile> more = more_profiles(options);
+    Progress emulations("emulations"), pairs("pairs of mistakes"), layers("verdict by layers");
+    return oracle::diagnose_picture({.input = opened.input(),
+                                     .algorithm = opened.algorithm(),
+                                     .candidate = opened.candidate,
+                                     .tolerances = options.tolerances,
+                                     .is_form_stated = options.alpha_form.has_value(),
+                                     .camera = camera_in_words(opened.options.run),
+                                     .limit = options.limit,
+                                     .more = more,
+                                     .passes = opened.passes_or_null(),
+                                     .layers = shown_by(layers)},
+                                    shown_by(emulations), shown_by(pairs));
+}
+
 int diagnose_one(const DiagnoseOptions& options) {
     const auto opened = open_case(options);
-    const std::vector<pipeline::DeviceProfile> more = more_profiles(options);
-    Progress emulations("emulations"), pairs("pairs of mistakes");
-    auto [found, comparison, right, made] = oracle::diagnose_picture({.input = opened->input(),
-                                                                      .algorithm = opened->algorithm(),
-                                                                      .candidate = opened->candidate,
-                                                                      .tolerances = options.tolerances,
-                                                                      .is_form_stated = options.alpha_form.has_value(),
-                                                                      .camera = camera_in_words(opened->options.run),
-                                                                      .limit = options.limit,
-                                                                      .more = more,
-                                                                      .passes = opened->passes_or_null()},
-                                                                     shown_by(emulations), shown_by(pairs));
+    auto [found, comparison, right, made] = diagnosed(*opened, options);
     find_distinguishing_scene(found);
-    if (found.verdict != oracle::Verdict::right) warn_of_other_command(*opened);
+    if (found.conclusion != oracle::Conclusion::right) warn_of_other_command(*opened);
     if (!options.report.empty()) {
         const std::string command = canonical_command("render", opened->options.run, opened->options.run.algorithms);
         const DiagnosisShown shown{found, comparison, right, opened->candidate};
         write_page(options.report, diagnosis_page(command, shown));
     }
     print(options.json ? to_json(found, comparison) : to_text(found, comparison));
-    return status_of(found.verdict);
+    return status_of(found.conclusion);
 }
 
 // The names of the packs in a folder, such as the scenes of the suite, sorted. Empty if the folder is itself a pack, or
@@ -245,10 +251,10 @@ int diagnose_several(const DiagnoseOptions& options, const std::vector<std::stri
         throw InputError(options.candidate, "has no picture or folder with the name of a pack, such as " + packs[0]);
     const oracle::ScenesDiagnosis found =
         oracle::diagnose_scenes(scenes, options.tolerances, [&](double share) { bar.show(0.5 + 0.5 * share); });
-    if (found.verdict != oracle::Verdict::right)
+    if (found.conclusion != oracle::Conclusion::right)
         for (const auto& one : opened) warn_of_other_command(*one);
     print(options.json ? to_json(found, reports) : to_text(found, reports));
-    return status_of(found.verdict);
+    return status_of(found.conclusion);
 }
 
 // Rejects options that describe a scene, because every pack of the folder contains its own state.

@@ -4,8 +4,8 @@
 #include <sstream>
 #include <vector>
 
-#include "tools/oracle/drawings.h"
-#include "tools/oracle/mistakes/diagnosis_report.h"
+#include "tools/oracle/compare/drawings.h"
+#include "tools/oracle/diagnosis/diagnosis_report.h"
 #include "tools/strata/compare/compare_pages.h"
 #include "tools/strata/table.h"
 
@@ -16,7 +16,7 @@ namespace {
 // Adds a table of the best findings if more than one was tried.
 void add_findings(PlainPage& page, const oracle::Diagnosis& found) {
     constexpr std::size_t most_findings = 6;
-    if (found.verdict == oracle::Verdict::right || found.findings.size() < 2) return;
+    if (found.conclusion == oracle::Conclusion::right || found.findings.size() < 2) return;
     Table table{{{"known mistakes"},
                  {"pixels that are the candidate's"},
                  {"differing pixels explained"},

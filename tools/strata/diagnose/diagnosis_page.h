@@ -3,8 +3,8 @@
 #pragma once
 #include <string>
 
-#include "tools/oracle/compare.h"
-#include "tools/oracle/mistakes/diagnosis.h"
+#include "tools/oracle/compare/compare.h"
+#include "tools/oracle/diagnosis/diagnosis.h"
 #include "tools/strata/report/plain_page.h"
 
 namespace strata::tools {

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "scenes/files/atomic_file.h"
-#include "tools/oracle/mistakes/catalogue.h"
-#include "tools/oracle/mistakes/mistake_table.h"
+#include "tools/oracle/emulations/catalogue.h"
+#include "tools/oracle/suite/mistake_table.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/progress.h"
 #include "tools/strata/table.h"

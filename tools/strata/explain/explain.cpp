@@ -3,7 +3,7 @@
 #include <type_traits>
 
 #include "scenes/files/atomic_file.h"
-#include "tools/oracle/history_report.h"
+#include "tools/oracle/explain/history_report.h"
 #include "tools/strata/command.h"
 #include "tools/strata/explain/explain_candidate.h"
 #include "tools/strata/options/option.h"

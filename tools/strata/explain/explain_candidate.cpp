@@ -1,7 +1,7 @@
 #include "tools/strata/explain/explain_candidate.h"
 
-#include "tools/oracle/verdict/edits.h"
-#include "tools/oracle/verdict/form.h"
+#include "tools/oracle/fragments/form.h"
+#include "tools/oracle/search/edits.h"
 #include "tools/strata/compare/compare_scene.h"
 #include "tools/strata/table.h"
 

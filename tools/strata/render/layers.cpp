@@ -8,7 +8,7 @@
 
 #include "peeling/sampled_renderer.h"
 #include "scenes/files/image_io.h"
-#include "tools/oracle/contact_sheet.h"
+#include "tools/oracle/passes/contact_sheet.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/recorded_command.h"

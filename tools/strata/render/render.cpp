@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "scenes/files/image_io.h"
-#include "tools/oracle/mistakes/catalogue.h"
-#include "tools/oracle/mistakes/mistake_renderer.h"
+#include "tools/oracle/emulations/catalogue.h"
+#include "tools/oracle/emulations/mistake_renderer.h"
 #include "tools/strata/command.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"

@@ -18,7 +18,7 @@
 #include "scenes/inside_folder.h"
 #include "scenes/numbers/srgb_encode.h"
 #include "scenes/read_files.h"
-#include "tools/oracle/picture.h"
+#include "tools/oracle/picture/picture.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/names.h"
 #include "tools/strata/progress.h"

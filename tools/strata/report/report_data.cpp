@@ -9,7 +9,7 @@
 #include "pipeline/device/check.h"
 #include "pipeline/device/sample_points.h"
 #include "rasterizer/base/input_error.h"
-#include "tools/oracle/history_report.h"
+#include "tools/oracle/explain/history_report.h"
 #include "tools/strata/progress.h"
 #include "tools/strata/render/stats.h"
 #include "tools/strata/report/survey.h"

@@ -8,7 +8,7 @@
 #include "peeling/programs/programs.h"
 #include "pipeline/frame/trace.h"
 #include "pipeline/region/region.h"
-#include "tools/oracle/history.h"
+#include "tools/oracle/explain/history.h"
 
 namespace strata::tools {
 

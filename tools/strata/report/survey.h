@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "peeling/render.h"
-#include "tools/oracle/passes.h"
+#include "tools/oracle/passes/passes.h"
 
 namespace strata::tools {
 

@@ -8,10 +8,10 @@
 #include "peeling/registry.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/camera.h"
-#include "tools/oracle/mistakes/catalogue.h"
-#include "tools/oracle/mistakes/mistake_renderer.h"
-#include "tools/oracle/mistakes/suite_packs.h"
+#include "tools/oracle/emulations/catalogue.h"
+#include "tools/oracle/emulations/mistake_renderer.h"
 #include "tools/oracle/reduce/cut_scene.h"
+#include "tools/oracle/suite/suite_packs.h"
 
 using namespace strata;
 using namespace strata::oracle;

@@ -8,9 +8,9 @@
 #include "pipeline/device/profile.h"
 #include "scenes/camera.h"
 #include "scenes/scene.h"
-#include "tools/oracle/picture.h"
-#include "tools/oracle/verdict/fragments.h"
-#include "tools/oracle/verdict/sample.h"
+#include "tools/oracle/fragments/fragments.h"
+#include "tools/oracle/fragments/sample.h"
+#include "tools/oracle/picture/picture.h"
 #include "tools/oracle/verdict/verdict.h"
 
 namespace strata::test {

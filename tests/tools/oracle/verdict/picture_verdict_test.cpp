@@ -3,9 +3,10 @@
 #include "tools/oracle/verdict/picture_verdict.h"
 
 #include <catch2/catch.hpp>
+#include <mutex>
 
 #include "tests/tools/oracle/verdict/wrong_ports.h"
-#include "tools/oracle/stored_like.h"
+#include "tools/oracle/picture/stored_like.h"
 #include "tools/oracle/verdict/report.h"
 
 using namespace strata;
@@ -52,7 +53,7 @@ TEST_CASE("a tie of which one fragment is lost is said, and wrong of an algorith
         l.visible = kept;
     };
     Hypothesis halves = port_of_codes(Order::over);
-    halves.back = {Storage::unorm10, Source::stored, Rounding::nearest};
+    halves.back = {Storage::unorm10, SourceRounding::stored, Rounding::nearest};
     const oracle::Target lost = picture_of_port(opened, halves, lose);
     const PictureVerdict found = verdict_on(opened, lost);
     CHECK(found.state() == State::right_but_excused);
@@ -89,6 +90,25 @@ TEST_CASE("a background that differs in one channel alone is named") {
         const std::string codes[] = {"229, 77, 128", "51, 229, 128", "51, 77, 229"};
         CHECK(first_line_on(opened, picture) == "wrong: the background is " + codes[channel] + " of 255");
     }
+}
+
+TEST_CASE("the progress of a long verdict is shown by shares from 0 to 1") {
+    const OpenedScene opened{"teapot", 48, 36};
+    const oracle::Target picture = picture_of_port(opened, port_of_codes(Order::over), [](PortList& l) {
+        if (l.visible.size() > 2) std::swap(l.visible[0], l.visible[2]);
+        if (l.visible.size() > 1) l.visible.pop_back();
+    });
+    std::mutex mutex;
+    std::vector<double> shares;
+    const PictureVerdict found = judge_picture(opened.input(), {.colors = picture, .progress = [&](double share) {
+                                                                    const std::scoped_lock lock{mutex};
+                                                                    shares.push_back(share);
+                                                                }});
+    CHECK_FALSE(found.is_right());
+    REQUIRE(shares.size() > 10);
+    CHECK(std::ranges::min(shares) >= 0);
+    CHECK(std::ranges::max(shares) <= 1);
+    CHECK(shares.back() >= 0.9);
 }
 
 TEST_CASE("a file for display of a linear frame holds encoded values") {
@@ -144,11 +164,12 @@ TEST_CASE("no port whose mistake hides in the rounding of many layers is called 
         std::reverse(l.visible.begin() + static_cast<std::ptrdiff_t>((l.visible.size() + 1) / 2), l.visible.end());
     };
     const std::pair<const char*, ChangeList> ports[] = {
-        {"alpha 0.9", scaled(0.9f)}, {"colours squared", squared}, {"second pass", second_pass},
-        {"capped at 3", capped},     {"unsorted rest", remainder}, {"far half reversed", far_reversed},
+        {"alpha 0.9", scaled(0.9f)},         {"alpha 0.95", scaled(0.95f)}, {"colours squared", squared},
+        {"second pass", second_pass},        {"capped at 3", capped},       {"unsorted rest", remainder},
+        {"far half reversed", far_reversed},
     };
     Hypothesis floats = port_of_codes(Order::over);
-    floats.front = floats.back = {Storage::single, Source::unrounded, Rounding::nearest};
+    floats.front = floats.back = {Storage::single, SourceRounding::unrounded, Rounding::nearest};
     for (const auto& [name, change] : ports)
         for (const Hypothesis& h : {port_of_codes(Order::over), port_of_codes(Order::under), floats}) {
             const PictureVerdict found = verdict_on(opened, picture_of_port(opened, h, change));

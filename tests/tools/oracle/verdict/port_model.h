@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "tools/oracle/verdict/composite.h"
+#include "tools/oracle/rounding/composite.h"
 
 namespace strata::test {
 
@@ -16,7 +16,7 @@ class PortModel {
   public:
     using Hypothesis = oracle::verdict::Hypothesis;
     using End = oracle::verdict::End;
-    using Source = oracle::verdict::Source;
+    using SourceRounding = oracle::verdict::SourceRounding;
     using Rounding = oracle::verdict::Rounding;
     using Storage = oracle::verdict::Storage;
     using Order = oracle::verdict::Order;
@@ -96,19 +96,21 @@ class PortModel {
     // The source as it is blended, after its conversion.
     double taken(const End& end, double v) {
         const int top = levels(end.storage);
-        const bool is_rounded = end.source != Source::unrounded && (end.source != Source::any || flips());
+        const bool is_rounded =
+            end.source != SourceRounding::unrounded && (end.source != SourceRounding::any || flips());
         if (!is_rounded) return top > 0 ? std::min(std::max(v, 0.0), 1.0) : v;
         if (end.storage == Storage::single) return v;
         if (end.storage == Storage::half)
-            return as_half(v, end.source == Source::any ? flips() : end.rounding == Rounding::truncated);
+            return as_half(v, end.source == SourceRounding::any ? flips() : end.rounding == Rounding::truncated);
         const double code = std::min(std::max(v, 0.0), 1.0) * top;
-        if (end.source == Source::premultiplied_truncated) return std::floor(code + 1e-9) / top;
-        const bool goes_up = end.source == Source::stored || end.source == Source::premultiplied || flips();
+        if (end.source == SourceRounding::premultiplied_truncated) return std::floor(code + 1e-9) / top;
+        const bool goes_up =
+            end.source == SourceRounding::stored || end.source == SourceRounding::premultiplied || flips();
         return (goes_up ? std::floor(code + 0.5) : std::ceil(code - 0.5)) / top;
     }
     bool premultiplies(const End& end) {
-        return end.source == Source::premultiplied || end.source == Source::premultiplied_either_way ||
-               end.source == Source::premultiplied_truncated || (end.source == Source::any && flips());
+        return end.source == SourceRounding::premultiplied || end.source == SourceRounding::premultiplied_either_way ||
+               end.source == SourceRounding::premultiplied_truncated || (end.source == SourceRounding::any && flips());
     }
 
     Color background(const End& end, const Rgba& given) {
@@ -116,7 +118,8 @@ class PortModel {
         const int top = levels(end.storage);
         for (std::size_t c = 0; c < 4; ++c) {
             const double code = std::min(std::max(double{given[c]}, 0.0), 1.0) * top;
-            const bool goes_up = end.source == Source::stored || end.source == Source::premultiplied || flips();
+            const bool goes_up =
+                end.source == SourceRounding::stored || end.source == SourceRounding::premultiplied || flips();
             color[c] = top > 0 ? (goes_up ? std::floor(code + 0.5) : std::ceil(code - 0.5)) / top : kept(end, given[c]);
         }
         return color;

@@ -65,7 +65,8 @@ TEST_CASE("the reported hypothesis has the formats with which the picture was ma
     SceneFragments fragments = opened.fragments();
     const Verdict codes = judged(fragments, *opened.picture("front_to_back", pipeline::Format::rgba8));
     CHECK(codes.right.account.hypothesis.order == Order::under);
-    CHECK(codes.right.account.hypothesis.front == End{Storage::unorm8, Source::premultiplied, Rounding::nearest});
+    CHECK(codes.right.account.hypothesis.front ==
+          End{Storage::unorm8, SourceRounding::premultiplied, Rounding::nearest});
     CHECK(codes.right.ties.rule == TieRule::unique);
     const Verdict floats = judged(fragments, *opened.picture("a_buffer", pipeline::Format::rgba8));
     CHECK(floats.right.account.hypothesis.front.storage == Storage::single);

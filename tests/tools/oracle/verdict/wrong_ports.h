@@ -19,9 +19,11 @@ using ChangeList = std::function<void(PortList&)>;
 // 8-bit accumulators with rounding to nearest and this order of blending.
 inline oracle::verdict::Hypothesis port_of_codes(oracle::verdict::Order order) {
     using namespace oracle::verdict;
-    const End end{Storage::unorm8, Source::stored, Rounding::nearest};
-    return {
-        .order = order, .front = end, .back = end, .result = {Storage::unorm8, Source::unrounded, Rounding::nearest}};
+    const End end{Storage::unorm8, SourceRounding::stored, Rounding::nearest};
+    return {.order = order,
+            .front = end,
+            .back = end,
+            .result = {Storage::unorm8, SourceRounding::unrounded, Rounding::nearest}};
 }
 
 // The picture of a port that applies a change to every list. `seed` decides where the hypothesis leaves a choice.

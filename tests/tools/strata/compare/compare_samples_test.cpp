@@ -96,11 +96,11 @@ TEST_CASE("the alpha of a resolved picture is compared if its colours are right"
     const CommandResult right = judged(folder, {"--profile", "ideal"}, "none");
     INFO(right.out << right.err);
     CHECK(right.status == 0);
-    CHECK(right.out.find("\n  alpha is right at all of them\n") != std::string::npos);
+    CHECK(right.out.find("\n  alpha is right at all pixels\n") != std::string::npos);
     const CommandResult wrong = judged(folder, {"--profile", "ideal", "--report", "page.html"}, "0,0,0,1");
     INFO(wrong.out << wrong.err);
     CHECK(wrong.status == 1);
     CHECK(content_of(folder / "page.html").find("grey if alpha alone is wrong") != std::string::npos);
-    CHECK(wrong.out.starts_with("wrong: alpha is not the mean of what the layers of the samples leave at "));
+    CHECK(wrong.out.starts_with("wrong: alpha is not the mean of the samples' alphas at "));
     CHECK(judged(folder, {"--profile", "ideal", "--channels", "rgb"}, "0,0,0,1").status == 0);
 }

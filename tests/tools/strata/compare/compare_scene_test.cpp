@@ -31,11 +31,11 @@ TEST_CASE("a screenshot over a transparent background is right with straight col
     const CommandResult right = run_strata(folder, {"compare", "teapot", "a.png", "--background", "none"});
     INFO(right.out << right.err);
     CHECK(right.status == 0);
-    CHECK(right.out.find("\n  alpha is right at all of them\n") != std::string::npos);
-    CHECK(right.out.find("\n  colours are taken for straight and multiplied by their alpha: ") != std::string::npos);
+    CHECK(right.out.find("\n  alpha is right at all pixels\n") != std::string::npos);
+    CHECK(right.out.find("\n  colours are read as straight and multiplied by their alpha, ") != std::string::npos);
     const CommandResult other = run_strata(folder, {"compare", "teapot", "a.png", "--report", "page.html"});
     CHECK(other.status == 1);
-    CHECK(other.out.starts_with("wrong: alpha is not what the layers leave at 432 of 432 pixels; "));
+    CHECK(other.out.starts_with("wrong: alpha is wrong at 432 of 432 pixels; "));
     CHECK(other.out.find("alpha is right over a background of alpha 0: --background ") != std::string::npos);
     CHECK(content_of(folder / "page.html").find("432 pixels: alpha alone is wrong") != std::string::npos);
     CHECK(run_strata(folder, {"compare", "teapot", "a.png", "--channels", "rgb"}).status == 0);

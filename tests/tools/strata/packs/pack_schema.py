@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reads packs as another program would, using only tools/oracle/PACK.md and its schema.
+"""Reads packs as another program would, using only tools/oracle/pack/PACK.md and its schema.
 
 usage: pack_schema.py STRATA SCHEMA
 

@@ -10,8 +10,8 @@
 #include "scenes/files/profile_json.h"
 #include "scenes/scene.h"
 #include "tests/tools/program.h"
-#include "tools/oracle/history.h"
-#include "tools/oracle/picture.h"
+#include "tools/oracle/explain/history.h"
+#include "tools/oracle/picture/picture.h"
 #include "tools/strata/report/report_page.h"
 #include "tools/strata/report/survey.h"
 

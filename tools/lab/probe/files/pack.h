@@ -1,4 +1,4 @@
-// tools/lab/probe/files/pack.h - reads and writes the answers to a kit as a candidate pack (tools/oracle/PACK.md).
+// tools/lab/probe/files/pack.h - reads and writes the answers to a kit as a candidate pack (tools/oracle/pack/PACK.md).
 //
 // Rule     candidate.json has an object "probe": the kit's digest, the driver's features and limits by their keys in a
 //          profile, and the items without an answer with the reason. probe/ORIENTATION/ITEM/color.npy and depth.npy

@@ -1,0 +1,63 @@
+// Tests how rendered colours are converted to those of a file against the writer of PNG files.
+#include "tools/oracle/picture/stored_like.h"
+
+#include <bit>
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "scenes/files/image_io.h"
+#include "tests/tools/oracle/picture/own_file.h"
+
+using namespace strata;
+using namespace strata::oracle;
+
+namespace {
+
+// Premultiplied colours from a little below 0 to a little above their alpha.
+pipeline::Image random_colors(pipeline::Format format) {
+    pipeline::Image image{format, 61, 53};
+    std::mt19937 random{7};
+    std::uniform_real_distribution<float> share{-0.02f, 1.05f};
+    for (std::size_t i = 0; i < image.codes.size(); i += 4) {
+        const float alpha = random() % 4 == 0 ? 1.0f : std::clamp(share(random), 0.0f, 1.0f);
+        for (std::size_t c = 0; c < 4; ++c) {
+            const float value = c < 3 ? share(random) * alpha : alpha;
+            const Code code = code_of(format);
+            image.codes[i + c] = nearest(code, double{value});
+        }
+    }
+    return image;
+}
+
+}  // namespace
+
+TEST_CASE("a rendered target stored like a PNG has the codes that the writer of PNG files writes") {
+    for (const pipeline::Format format :
+         {pipeline::Format::rgba8, pipeline::Format::rgba16f, pipeline::Format::rgba32f})
+        for (const pipeline::ColorSpace space : {pipeline::ColorSpace::encoded, pipeline::ColorSpace::linear}) {
+            const pipeline::Image image = random_colors(format);
+            Target rendered = as_target(image, "color");
+            rendered.alpha_form = AlphaForm::premultiplied;
+            const test::OwnFile file{".png"};
+            scenes::write_image(file.path(), {.color = image, .premultiplied = true, .space = space});
+            const Picture read = read_picture(file.path());
+            REQUIRE(read.targets[0].holds_encoded);
+            const auto stored = stored_like(rendered, read.targets[0], space);
+            const bool is_same = format == pipeline::Format::rgba8 && space == pipeline::ColorSpace::encoded;
+            INFO(pipeline::info(format).name << ", linear: " << (space == pipeline::ColorSpace::linear));
+            REQUIRE(stored.has_value() != is_same);
+            if (!stored) continue;
+            CHECK(stored->codes == read.targets[0].codes);
+            CHECK(stored->alpha_form == AlphaForm::straight);
+        }
+}
+
+TEST_CASE("targets compared with an EXR or with plain numbers are left as they were rendered") {
+    const pipeline::Image image = random_colors(pipeline::Format::rgba16f);
+    Target rendered = as_target(image, "color");
+    rendered.alpha_form = AlphaForm::premultiplied;
+    const test::OwnFile file{".exr"};
+    scenes::write_image(file.path(), {.color = image, .premultiplied = true, .space = pipeline::ColorSpace::linear});
+    CHECK_FALSE(stored_like(rendered, read_picture(file.path()).targets[0], pipeline::ColorSpace::linear));
+    CHECK_FALSE(stored_like(rendered, as_target(image, "color"), pipeline::ColorSpace::linear));
+}

@@ -1,0 +1,26 @@
+// tools/oracle/compare/report.h - the report of a comparison as text, as JSON and as JUnit for continuous integration.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "tools/oracle/compare/compare.h"
+
+namespace strata::oracle {
+
+// The verdict in the first line, then targets, kinds and explanations.
+[[nodiscard]] std::string to_text(const Comparison& comparison);
+// One object; all keys are always present.
+[[nodiscard]] std::string to_json(const Comparison& comparison);
+// A test case for continuous integration; it fails unless `failure` is empty.
+struct JunitCase {
+    std::string group{}, name{}, failure{};
+    bool is_skipped = false;
+};
+[[nodiscard]] std::string to_junit(const std::vector<JunitCase>& cases);
+// "31 pixels, first at 4,7": those beyond the tolerance.
+[[nodiscard]] std::string failure_of(const KindReport& kind);
+
+// One test case per kind, failed if pixels differ beyond the tolerance, skipped if the targets cannot show the kind.
+[[nodiscard]] std::string to_junit(const Comparison& comparison);
+
+}  // namespace strata::oracle

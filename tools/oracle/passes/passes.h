@@ -1,0 +1,68 @@
+// tools/oracle/passes/passes.h - reports every pass of an algorithm with the content of all targets after it.
+//
+// Rule     The run is literal, with the passes of the device. A pass is reported when it has ended and its queries are
+//          answered, together with the clears and copies before it. Targets have the names that the algorithm gives
+//          them; the second of one name is NAME.1, and so on: a pair that is swapped keeps its names. Under reversed
+//          depth, depth targets are reported as depths; colour targets that contain depths contain keys
+//          (rasterizer/rules/depth_key.h). The last entry is the published image.
+//          With several samples per pixel (RunInput::sampling) the samples' frames advance together: a pass is the same
+//          pass of every sample, its targets contain all samples, its counts are sums, and the published image is the
+//          resolved one. The targets of one pass are in memory at a time.
+// Tests    tests/tools/oracle/passes/passes_test.cpp
+#pragma once
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "peeling/algorithms/algorithm.h"
+#include "pipeline/frame/alteration.h"
+#include "pipeline/frame/observer.h"
+#include "tools/oracle/passes/target_parts.h"
+#include "tools/oracle/run_input.h"
+
+namespace strata::oracle {
+
+enum class PassKind : std::uint8_t { geometry, full_screen, published };
+[[nodiscard]] std::string_view name(PassKind kind) noexcept;
+
+struct Query {
+    std::uint64_t count = 0;
+    bool goes_on = false;
+};
+
+struct PassReport {
+    int number = 0;  // from 0
+    PassKind kind{};
+    int iteration = 0;                  // 0: before the first iteration
+    std::vector<std::string> before{};  // "clear front", "copy opaque_depth to nearest"
+    std::vector<std::string> reads{}, writes{};
+    std::uint64_t passed = 0, tallied = 0;  // fragments that passed all tests; events that the program counts
+    std::vector<NamedImage> targets{};      // all existing targets, the opaque scene's first
+    std::vector<Query> queries{};           // about the pass, answered before the next one
+};
+
+// Calls `on_pass` for one pass after another; it may keep the images. Throws Refused if the profile lacks a feature.
+// `alterations`: none, or those of each sample, which make a run with a mistake.
+void passes(const RunInput& input, const peeling::Algorithm& algorithm,
+            const std::function<void(PassReport&&)>& on_pass, std::span<const pipeline::Alteration> alterations = {});
+
+// Names of targets by their numbers, for observers.
+class TargetNames {
+  public:
+    void add(pipeline::Target target, std::string_view name);
+    [[nodiscard]] std::string of(pipeline::Target target) const;
+
+  private:
+    std::vector<std::string> names_{"opaque_depth", "opaque_color"};
+};
+
+// Renders literally, without an audit, for one observer of each sample, and returns the published picture. The samples'
+// observers are called on threads of their own; all have been told of a counted step before any is told of the next.
+// Throws Refused.
+pipeline::Image observe(const RunInput& input, const peeling::Algorithm& algorithm,
+                        std::span<const pipeline::Observer> observers,
+                        std::span<const pipeline::Alteration> alterations = {});
+
+}  // namespace strata::oracle

@@ -1,0 +1,94 @@
+#include "tools/oracle/picture/other_size.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace strata::oracle {
+
+namespace {
+
+struct Position {
+    int x = 0, y = 0;
+};
+
+std::size_t index(const Target& target, Position at) noexcept {
+    return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(at.x);
+}
+
+bool agree(const Target& a, Position at_a, const Target& b, Position at_b) {
+    constexpr double one_code = 1.0 / 255;
+    const std::size_t i = index(a, at_a), j = index(b, at_b);
+    const int channels = std::min({a.channels, b.channels, 3});
+    for (int c = 0; c < channels; ++c)
+        if (std::fabs(a.value_at(i, c) - b.value_at(j, c)) > one_code + 1e-9) return false;
+    return true;
+}
+
+// The pixels of a width x height corner of `a` that agree with their partner in `b`.
+std::uint64_t agreeing(const Target& a, int width, int height, const Target& b,
+                       const std::function<Position(Position)>& partner) {
+    std::uint64_t pixels = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) pixels += agree(a, {x, y}, b, partner({x, y})) ? 1 : 0;
+    return pixels;
+}
+
+bool is_scaled(const Target& small, const Target& large, int by) {
+    return large.width == by * small.width && large.height == by * small.height &&
+           agreeing(large, large.width, large.height, small, [by](Position at) {
+               return Position{at.x / by, at.y / by};
+           }) == large.pixels();
+}
+
+// Every pixel of the small one is one of the square that it stands for: a picture is made smaller in several ways.
+bool is_reduced(const Target& small, const Target& large, int by) {
+    if (large.width != by * small.width || large.height != by * small.height) return false;
+    for (int first = 0; first < by; ++first)
+        if (agreeing(small, small.width, small.height, large, [by, first](Position at) {
+                return Position{at.x * by + first, at.y * by + first};
+            }) == small.pixels())
+            return true;
+    return false;
+}
+
+std::string turned(const Target& reference, const Target& candidate) {
+    if (candidate.width != reference.height || candidate.height != reference.width) return "";
+    const int right = reference.width - 1, low = reference.height - 1;
+    const auto is_by = [&](const std::function<Position(Position)>& partner) {
+        return agreeing(candidate, candidate.width, candidate.height, reference, partner) == candidate.pixels();
+    };
+    if (is_by([](Position at) { return Position{at.y, at.x}; })) return "the reference transposed";
+    if (is_by([&](Position at) { return Position{at.y, low - at.x}; }))
+        return "the reference turned right by 90 degrees";
+    if (is_by([&](Position at) { return Position{right - at.y, at.x}; }))
+        return "the reference turned left by 90 degrees";
+    return "";
+}
+
+std::string overlap(const Target& reference, const Target& candidate) {
+    const int width = std::min(reference.width, candidate.width), height = std::min(reference.height, candidate.height);
+    const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    const std::uint64_t equal = agreeing(reference, width, height, candidate, [](Position at) { return at; });
+    if (equal == pixels) return "equal where both overlap, from the upper left corner";
+    return fmt::format("equal at {} of the {} pixels where both overlap, from the upper left corner", equal, pixels);
+}
+
+std::string relation(const Target& reference, const Target& candidate) {
+    for (const int by : {2, 3, 4}) {
+        if (is_scaled(reference, candidate, by)) return fmt::format("the reference scaled by {}", by);
+        if (is_reduced(candidate, reference, by)) return fmt::format("the reference scaled by 1/{}", by);
+    }
+    const std::string other = turned(reference, candidate);
+    return other.empty() ? overlap(reference, candidate) : other;
+}
+
+}  // namespace
+
+std::string size_in_words(const Target& reference, const Target& candidate) {
+    return fmt::format("{}x{}, {}", candidate.width, candidate.height, relation(reference, candidate));
+}
+
+}  // namespace strata::oracle

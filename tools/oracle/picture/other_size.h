@@ -1,0 +1,18 @@
+// tools/oracle/picture/other_size.h - how a picture of another size is related to the reference: scaled, transposed,
+// turned, or equal where both overlap.
+//
+// Rule     Two pixels agree if all colours that both have differ by at most 1/255. A picture is scaled by 2, 3 or 4, or
+//          transposed or turned by 90 degrees, if all pixels agree. Otherwise the pixels that agree are counted where
+//          the two overlap, from the upper left corner.
+// Tests    tests/tools/oracle/picture/other_size_test.cpp
+#pragma once
+#include <string>
+
+#include "tools/oracle/picture/picture.h"
+
+namespace strata::oracle {
+
+// "48x32, the reference scaled by 2": the candidate's size, which is not the reference's.
+[[nodiscard]] std::string size_in_words(const Target& reference, const Target& candidate);
+
+}  // namespace strata::oracle

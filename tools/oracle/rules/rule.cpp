@@ -1,0 +1,9 @@
+#include "tools/oracle/rules/rule.h"
+
+#include "rasterizer/base/enum_values.h"
+
+namespace strata::oracle::verdict {
+
+std::string_view name(RuleKind kind) noexcept { return enum_names<RuleKind>[static_cast<std::size_t>(kind)]; }
+
+}  // namespace strata::oracle::verdict

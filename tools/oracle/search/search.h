@@ -1,0 +1,41 @@
+// tools/oracle/search/search.h - finds the mistake in the structure of a wrong picture.
+//
+// Rule     Rules are first tried on a sample under the widest hypotheses, which rejects most of them quickly; a
+//          remaining rule must hold at every pixel under a definite hypothesis. Explanations that need much more bits
+//          than the best one are dropped. A rule that explains only some wrong pixels is a lead; leads are ranked by
+//          the pixels that they explain, minus a share of the right ones that contradict them.
+// Tests    tests/tools/oracle/search/search_test.cpp
+#pragma once
+#include <limits>
+
+#include "tools/oracle/rules/rules.h"
+#include "tools/oracle/search/match.h"
+
+namespace strata::oracle::verdict {
+
+// Accounts with `most_rules` rules, one or two, each of which holds for the whole picture; the best is first.
+// `definite`: the hypotheses under which they must hold; `closest`: the account of the right structure with the least
+// cost; `sample`: pixels, including some wrong ones; `region`: the pixels at which the port makes the mistake.
+[[nodiscard]] std::vector<CheckedAccount> search(const SceneFragments& scene, const Colors& candidate,
+                                                 const Families& definite, const CheckedAccount& closest,
+                                                 const Sample& sample, int most_rules, const Region& region = {});
+
+// The same with one rule and without the closest account, under narrow hypotheses: accounts must explain every pixel of
+// the sample, including those that a wider hypothesis would call right.
+struct AgainstRight {
+    double bits = 0;                                      // of the account of the right structure
+    int most_rejected = std::numeric_limits<int>::max();  // hypotheses of each rule (match.h)
+};
+[[nodiscard]] std::vector<CheckedAccount> search_all(const SceneFragments& scene, const Colors& candidate,
+                                                     const Families& narrow, const Sample& sample,
+                                                     const AgainstRight& against);
+
+// The account of the whole picture with these rules, if it is an explanation: it holds for every pixel.
+[[nodiscard]] std::optional<CheckedAccount> explained_by(const std::vector<Rule>& rules, const SceneFragments& scene,
+                                                         const Colors& candidate, const Families& definite,
+                                                         const Sample& sample);
+
+// The rules that explain the most wrong pixels of a sample, the best first.
+[[nodiscard]] std::vector<Lead> leads(const SceneFragments& scene, const CheckedAccount& closest, const Sample& sample);
+
+}  // namespace strata::oracle::verdict
