@@ -14,13 +14,13 @@
 namespace strata::scenes::models {
 namespace {
 
-struct Property {
+struct PlyProperty {
     std::size_t bytes = 0, count_bytes = 0;  // in a binary file; `count_bytes` is 0 unless the property is a list
 };
 struct PlyElement {
     std::string name;
     std::uint64_t count = 0;
-    std::vector<Property> properties;
+    std::vector<PlyProperty> properties;
 };
 enum class Encoding : std::uint8_t { text, little_endian, big_endian };
 
@@ -88,8 +88,8 @@ PlyHeader header_of(std::string_view file, const std::string& path) {
             std::string item;
             if (second == "list") words >> item;
             header.elements.back().properties.push_back(second == "list"
-                                                            ? Property{bytes_of_type(item), bytes_of_type(third)}
-                                                            : Property{bytes_of_type(second), 0});
+                                                            ? PlyProperty{bytes_of_type(item), bytes_of_type(third)}
+                                                            : PlyProperty{bytes_of_type(second), 0});
         }
     }
     return {};  // without end_header the loader refuses the file
@@ -136,7 +136,7 @@ class Values {
 };
 
 bool has_element(Values& values, const PlyElement& element) {
-    for (const Property& property : element.properties) {
+    for (const PlyProperty& property : element.properties) {
         std::uint64_t count = 1;
         if (property.count_bytes != 0) {
             const auto items = values.count(property.count_bytes);
