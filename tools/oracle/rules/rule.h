@@ -146,13 +146,13 @@ inline constexpr std::size_t rule_kind_count = static_cast<std::size_t>(RuleKind
 enum class Scope : std::uint8_t { all, instance, material, back_faces, front_faces, layer, layer_from_far };
 
 // Pixels [x0, x1) x [y0, y1) of the frame, from the top left corner.
-struct Region {
+struct RuleRegion {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     [[nodiscard]] constexpr bool is_everywhere() const noexcept { return x1 == 0; }
     [[nodiscard]] constexpr bool has(int x, int y) const noexcept {
         return is_everywhere() || (x >= x0 && x < x1 && y >= y0 && y < y1);
     }
-    friend bool operator==(const Region&, const Region&) = default;
+    friend bool operator==(const RuleRegion&, const RuleRegion&) = default;
 };
 
 struct Rule {
@@ -162,7 +162,7 @@ struct Rule {
     Scope scope = Scope::all;
     std::uint32_t of = 0;  // the number of the instance, material or layer
     int dx = 0, dy = 0;    // pixels to the right and down
-    Region region{};       // the pixels at which the rule applies
+    RuleRegion region{};   // the pixels at which the rule applies
     friend bool operator==(const Rule&, const Rule&) = default;
 };
 

@@ -83,7 +83,7 @@ std::string description(const Rule& rule, const SceneFacts& facts, const pipelin
     if (!rule.region.is_everywhere()) {
         Rule everywhere = rule;
         everywhere.region = {};
-        const Region& r = rule.region;
+        const RuleRegion& r = rule.region;
         return fmt::format("within x {} to {} and y {} to {}: {}", r.x0, r.x1 - 1, r.y0, r.y1 - 1,
                            description(everywhere, facts, list));
     }

@@ -297,7 +297,7 @@ void drop_roomy(std::vector<CheckedAccount>& found, double most_bits) {
 
 std::vector<CheckedAccount> search(const SceneFragments& scene, const Colors& candidate, const Families& definite,
                                    const CheckedAccount& closest, const Sample& sample, int most_rules,
-                                   const Region& region) {
+                                   const RuleRegion& region) {
     constexpr std::size_t least_of_pairs = 8;  // wrong pixels; with fewer, two mistakes cannot be distinguished
     // Limits of the accounts that are tried on the whole picture: counts instead of times, so that the result is the
     // same on every machine.

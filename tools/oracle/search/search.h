@@ -18,7 +18,7 @@ namespace strata::oracle::verdict {
 // cost; `sample`: pixels, including some wrong ones; `region`: the pixels at which the port makes the mistake.
 [[nodiscard]] std::vector<CheckedAccount> search(const SceneFragments& scene, const Colors& candidate,
                                                  const Families& definite, const CheckedAccount& closest,
-                                                 const Sample& sample, int most_rules, const Region& region = {});
+                                                 const Sample& sample, int most_rules, const RuleRegion& region = {});
 
 // The same with one rule and without the closest account, under narrow hypotheses: accounts must explain every pixel of
 // the sample, including those that a wider hypothesis would call right.

@@ -110,10 +110,10 @@ CheckedAccount closest_account(const SceneFragments& scene, const Colors& candid
 
 // The rectangle of all wrong pixels, if it is a small part of the picture: extended to the tile of 8 to 64 pixels that
 // contains it, if there is one.
-std::optional<Region> region_of(const std::vector<std::uint32_t>& wrong, int width, int height) {
+std::optional<RuleRegion> region_of(const std::vector<std::uint32_t>& wrong, int width, int height) {
     constexpr std::size_t least = 16;  // with fewer pixels, mistakes cannot be distinguished
     if (wrong.size() < least) return std::nullopt;
-    Region box{width, height, 0, 0};
+    RuleRegion box{width, height, 0, 0};
     for (const std::uint32_t pixel : wrong) {
         const int x = static_cast<int>(pixel % static_cast<std::uint32_t>(width));
         const int y = static_cast<int>(pixel / static_cast<std::uint32_t>(width));
@@ -121,8 +121,8 @@ std::optional<Region> region_of(const std::vector<std::uint32_t>& wrong, int wid
     }
     if (2 * (box.x1 - box.x0) * (box.y1 - box.y0) > width * height) return std::nullopt;
     for (const int size : {8, 16, 32, 64}) {
-        const Region tile{box.x0 / size * size, box.y0 / size * size, (box.x0 / size + 1) * size,
-                          (box.y0 / size + 1) * size};
+        const RuleRegion tile{box.x0 / size * size, box.y0 / size * size, (box.x0 / size + 1) * size,
+                              (box.y0 / size + 1) * size};
         if (box.x1 <= tile.x1 && box.y1 <= tile.y1) return tile;
     }
     return box;
@@ -213,7 +213,7 @@ Verdict found_at_length(SceneFragments& scene, const Colors& candidate, const Se
     sample = sample.with_few_structures(most_structures);
     work.begin_stage(0.6, 0.8);
     work.allow(limits.mistakes + of_fragments);
-    const auto is_found = [&](const Families& some, int most_rules, const Region& region) {
+    const auto is_found = [&](const Families& some, int most_rules, const RuleRegion& region) {
         verdict.explanations = search(scene, candidate, some, verdict.right, sample, most_rules, region);
         verdict.is_stopped = work.is_cut_short();
         return !verdict.explanations.empty();
