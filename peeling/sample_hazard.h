@@ -1,5 +1,5 @@
-// peeling/sample_hazard.h - counts what a peel loses at the samples of a pixel: where programs run once a pixel, or
-// load what another sample has stored.
+// peeling/sample_hazard.h - counts the layers that a multisampled peel loses, doubles or misplaces at its samples,
+// because it shades once per pixel or compares with a depth that another sample has stored.
 //
 // Rule     A sample's true layers are the distinct keys of its own fragments before the opaque surface, evaluated at
 //          the sample. Lost: never composited; doubled: composited more than once; misplaced: composited behind a
@@ -23,7 +23,7 @@ struct SampleHazard {
     std::uint64_t layers = 0, lost = 0, doubled = 0, misplaced = 0;
     std::uint64_t samples = 0;  // that have a layer
     std::uint64_t at_silhouettes = 0, at_inner_edges = 0, inside = 0;
-    std::uint64_t programs = 0;  // runs of the program in a pass that draws everything
+    std::uint64_t programs = 0;  // runs of the program if one pass draws everything
     int passes = 0;              // of the sample that takes most
     bool ended = true;           // false: stopped by a limit, as a peel that finds the same layer in every pass
     pipeline::Image picture;     // resolved

@@ -1,5 +1,5 @@
-// pipeline/frame/region_statistics.h - what a region records while its body runs: everything that the executor needs to
-// assemble the frame.
+// pipeline/frame/region_statistics.h - what a region (a tile, or the whole frame in literal execution) records while
+// the algorithm's body runs on it: everything that the executor needs to assemble the frame.
 //
 // Rule     `script` and `passes_before` come from the executor, everything else from the region.
 // Tests    tests/pipeline/region/executor_test.cpp
@@ -16,8 +16,8 @@
 namespace strata::pipeline {
 
 struct Decision {
-    std::uint64_t own = 0;
-    Idle idle = Idle::no;
+    std::uint64_t own = 0;  // fragments that this region counted
+    Idle idle = Idle::no;   // the query's promise (execution.md 4.2)
     bool answer = false;
 };
 

@@ -1,5 +1,8 @@
-// pipeline/stages/blend_lanes.h - the loops of blend.h, compiled once per instruction set. Included only by
-// blend_simd.cpp.
+// pipeline/stages/blend_lanes.h - the loops of blend.h over the fragments of a batch. blend_simd.cpp, which alone
+// includes this file, compiles them once per instruction set by inlining.
+//
+// Rule     Every instruction set gives the same bits.
+// Tests    tests/pipeline/stages/simd_stages_test.cpp, blend_float_test.cpp, blend_unorm8_test.cpp
 #pragma once
 #include <bit>
 

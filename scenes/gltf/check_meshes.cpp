@@ -70,8 +70,8 @@ struct MeshChecker {
     // `count` is that of the previous attributes, empty for the first: all must be equal.
     void check_attribute(const JsonAt& attribute, const std::string& name, std::optional<std::uint64_t>& count) const {
         if (!is_attribute_name(name))
-            attribute.location().fail("MESH_PRIMITIVE_INVALID_ATTRIBUTE", "a name of glTF's or one that begins with _",
-                                      in_quotes(name));
+            attribute.location().fail("MESH_PRIMITIVE_INVALID_ATTRIBUTE",
+                                      "an attribute that glTF defines, or a name that begins with _", in_quotes(name));
         const AccessorFormat f = format(root.json(), attribute.index(accessors));
         if (!is_allowed(name, f, is_quantized))
             attribute.fail("MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT",

@@ -226,7 +226,8 @@ Command add_list(CLI::App& root) {
         "is from; scenes: their parameters")
         ->required()
         ->type_name("");
-    app->add_option("NAME", options->name, "show this one alone; a profile may be a JSON file")->type_name("");
+    app->add_option("NAME", options->name, "show only the entry of this name; a profile may be a JSON file")
+        ->type_name("");
     app->add_flag("--json", options->json,
                   "one JSON document instead of the table; of one profile, what --profile FILE.json takes");
     app->footer(

@@ -125,8 +125,9 @@ Command add_bench(CLI::App& root) {
         ->required()
         ->type_name("...");
     add_reading_options(*app, options->run.scene_options);
-    add_choices(*app, options->algorithms, "--algorithm", names, values_of(names),
-                "algorithms with commas between; depth is one opaque depth pass (default all; dual with --per-effect)");
+    add_choices(
+        *app, options->algorithms, "--algorithm", names, values_of(names),
+        "algorithms, separated by commas, or depth for one opaque depth pass (default: all; with --per-effect: dual)");
     add_profile_option(*app, options->run.profile);
     add_machine_options(*app, options->run);
     add_order_options(*app, options->run.render);

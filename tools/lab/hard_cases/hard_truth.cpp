@@ -1,3 +1,5 @@
+// tools/lab/hard_cases/hard_truth.cpp - composites the device's own fragments exactly, and compares a picture with that
+// (hard_truth.h). hard_exact.h computes the fragments themselves exactly.
 #include "tools/lab/hard_cases/hard_truth.h"
 
 #include <algorithm>

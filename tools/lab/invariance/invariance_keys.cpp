@@ -146,7 +146,7 @@ std::vector<PlanKey> make_keys() {
         {"depth_format", "depth buffers", "d16, d24, d32f, d16f or d24f", "d16,d24",
          [](Cell& c, const std::string& t) { return assign(c.format, to_choice(depth_formats, t)); }},
         {"subpixel_bits", "grids of window positions", "profile, 4, 8 or 12", "profile", set_subpixel_bits},
-        {"near_far", "depth ranges: orbit, ratio:FAR/NEAR, or NEAR:FAR",
+        {"near_far", "near and far planes: orbit (those of the orbiting view), ratio:R (far / near), or NEAR:FAR",
          "orbit, ratio:R with R from 2.6, or NEAR:FAR with 0 < NEAR < FAR", "orbit", set_range},
         {"remedy",
          "none, or bias:UNITS, slope:FACTOR, epsilon:ABS, epsilon:Nulp, unquantized, depth_replace, with + between",

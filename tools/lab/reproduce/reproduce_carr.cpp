@@ -140,7 +140,7 @@ Chart chart_of(const std::vector<Measured>& runs, const std::string& name, const
 // The table, three charts and an image. Rows of one number of slices are consecutive, layer_peel's first, because the
 // others are compared with it.
 Section beam(const ReproduceOptions& options) {
-    Section section{"Figures 1 and 3: slices of a volume and a cone", fmt::format(beam_text, beam_size)};
+    Section section{"Figures 1 and 3: the slices of a volume, and a cone", fmt::format(beam_text, beam_size)};
     section.sheet = {"figure3",
                      {"slices", "algorithm", "iterations", "geometry passes", "fragments", "of layer_peel's fragments",
                       "times faster than layer_peel", "the paper", "why they differ"},

@@ -218,7 +218,10 @@ std::string CoverageReport::description() const {
         case CoverageMistake::edge_rule:
             return gained == 0 || lost == 0
                        ? fmt::format("{}, at the borders: a fill rule that counts edges on all sides, or none", counts)
-                       : fmt::format("{}, each on one side: a fill rule that gives ties to the other edge", counts);
+                       : fmt::format(
+                             "{}, all on the same side of an edge: the fill rule assigns pixel centres on an edge to "
+                             "the opposite triangle",
+                             counts);
         case CoverageMistake::snapping:
             return fmt::format("{}, mixed along the borders: positions snapped or rounded otherwise", counts);
         case CoverageMistake::surface: break;

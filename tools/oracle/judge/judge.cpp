@@ -1,3 +1,5 @@
+// tools/oracle/judge/judge.cpp - judges a candidate picture: asks for the verdict (picture_verdict.h, or
+// samples_verdict.h for several samples per pixel), then which option of the view looks forgotten (judge.h).
 #include "tools/oracle/judge/judge.h"
 
 #include <algorithm>

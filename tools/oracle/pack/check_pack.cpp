@@ -45,7 +45,7 @@ std::string place_of(const NumberArray& array, std::size_t element) {
     return place;
 }
 
-// `begin` is the offset of the array in the file.
+// The byte at `position` of the file, and the element of its array.
 std::string place_in_file(const std::string& bytes, const std::string& name, std::size_t position) {
     const auto array = array_of(bytes, name);
     std::string place = fmt::format("byte {}", position);
@@ -150,8 +150,9 @@ class Check {
     std::optional<std::string> read(const std::string& name) {
         try {
             return scenes::read_text_file(folder_ + "/" + name, most_bytes);
-        } catch (const InputError&) {
-            note(name, "no such file");
+        } catch (const InputError& error) {
+            std::error_code ignored;
+            note(name, std::filesystem::exists(folder_ + "/" + name, ignored) ? error.what() : "no such file");
             return std::nullopt;
         }
     }

@@ -159,7 +159,7 @@ Pairing pair_targets(const Picture& reference, const Picture& candidate, ColorCh
         if (std::ranges::find(taken, &target) == taken.end())
             found.not_compared.push_back(fmt::format("{}: in the candidate alone", place(target)));
     if (found.pairs.empty())
-        throw InputError(candidate.file, "targets", "one that the reference has, too", place(candidate.targets.at(0)));
+        throw InputError(candidate.file, "targets", "a target that the reference has", place(candidate.targets.at(0)));
     return found;
 }
 

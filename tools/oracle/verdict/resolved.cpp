@@ -1,3 +1,5 @@
+// tools/oracle/verdict/resolved.cpp - is a resolved multisampled picture, at every pixel, the mean of right samples
+// under one hypothesis of rounding (resolved.h)?
 #include "tools/oracle/verdict/resolved.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
-// tools/port/gl/mesh.h - the triangles that the port draws: clip-space vertices with their colours, and draw calls.
+// tools/port/gl/mesh.h - the triangles that the port (the same algorithms as a program for OpenGL, which tests drivers)
+// draws: clip-space vertices with their colours, and draw calls. A Vertex is uploaded byte by byte.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -78,7 +78,7 @@ bool choice(const Manifest& manifest, const std::string& place, const std::strin
 void check_state(const Manifest& manifest) {
     const ordered_json& state = manifest.at("/state");
     if (state.value("depth_order", "less") != "less")
-        manifest.refuse("/state/depth_order", "less: the port does not reverse depths", "greater");
+        manifest.refuse("/state/depth_order", "less (the port does not support reversed depth)", "greater");
     for (const char* const choice : {"depth_path", "reference_path"})
         if (state.contains(choice) && !state.at(choice).is_null())
             manifest.refuse(std::string("/state/") + choice, "null", state.at(choice).dump());

@@ -269,7 +269,8 @@ Command add_compare(CLI::App& root) {
              {"--algorithm", "NAME", "of a pack: compare this one alone (default: all); of a scene: what the port runs",
               "an algorithm"});
     add_path(*app, options->heat,
-             {"--heat", "FILE.png", "how many codes each pixel is off, with a legend", "a file name"});
+             {"--heat", "FILE.png", "the difference of each pixel from the reference, in 8-bit steps, with a legend",
+              "a file name"});
     add_path(*app, options->side,
              {"--side", "FILE.png",
               "reference, candidate, heat map and kinds side by side, for a verdict the wrong pixels in place of "

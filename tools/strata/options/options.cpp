@@ -109,7 +109,7 @@ void add_sample_options(CLI::App& app, RunOptions& options) {
                 "a number from 0 to 1"},
                to_share);
     app.add_flag("--sample-coverage-invert", options.render.raster.sample_coverage.is_inverted,
-                 "the samples that --sample-coverage leaves out, instead");
+                 "cover the samples that --sample-coverage leaves out (GL_SAMPLE_COVERAGE_INVERT)");
     add_option(app, options.render.raster.sample_coverage.mask,
                {"--sample-mask", "BITS", "the samples that transparent passes cover, bit s for sample s (default 255)",
                 "a whole number from 0 to 255"},

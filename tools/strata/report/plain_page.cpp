@@ -121,7 +121,7 @@ std::string PlainPage::html() const {
         page += fmt::format("<h2>Left out</h2>\n<p>{} pictures, so that this page has at most 8 MiB.</p>\n", left_out_);
     page += fmt::format("</main>\n<script>\n{}</script>\n</body>\n</html>\n", plain_js());
     if (page.size() > most_bytes)
-        throw InputError("--report", "size", "a page of at most 8 MiB", std::to_string(page.size()) + " bytes");
+        throw InputError("--report", "size", "an HTML page of at most 8 MiB", std::to_string(page.size()) + " bytes");
     return page;
 }
 

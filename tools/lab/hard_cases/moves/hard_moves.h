@@ -1,5 +1,6 @@
-// tools/lab/hard_cases/moves/hard_moves.h - variations of a case: coordinates moved slightly, triangles in another
-// order, the camera on a path.
+// tools/lab/hard_cases/moves/hard_moves.h - copies of a hard case (a scene of almost degenerate triangles or almost
+// equal depths) with coordinates moved slightly, triangles in another order, or the camera on a path. `strata
+// hard-cases` renders them to see whether the picture stays stable.
 //
 // Rule     A move changes the coordinates of corners, all at once or a single one, by one unit in the last place or by
 //          a relative 2^-20; a bit of splitmix64 of seed, mesh, corner and axis gives the sign. Corners of a mesh at
@@ -29,7 +30,7 @@ inline constexpr std::array move_sizes{MoveSize::unit, MoveSize::relative};
 struct Move {
     MoveSize size = MoveSize::unit;
     std::uint64_t seed = 0;
-    std::optional<std::size_t> alone{};  // the index of the only coordinate that moves
+    std::optional<std::size_t> alone{};  // the only coordinate that moves: 3 * corner position + axis
 };
 
 // The number of coordinates of all distinct corner positions, three each.

@@ -1,3 +1,5 @@
+// tools/lab/probe/kit/kit.cpp - the kit as JSON, with its digest (kit.h): `strata probe` writes it for a device to
+// draw. Any change of an item changes the digest, and answers to an earlier kit are then refused.
 #include "tools/lab/probe/kit/kit.h"
 
 #include <fmt/format.h>
