@@ -142,7 +142,6 @@ struct Renderer::State {
 };
 
 Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& profile, const RenderOptions& options) {
-    const SimdScope kernels{options.simd};
     state_ = std::unique_ptr<State>(new State{set_up_frames(list, view, profile, options)});
 }
 

@@ -5,6 +5,7 @@
 
 #include "peeling/frame/check_options.h"
 #include "peeling/raster_state.h"
+#include "rasterizer/base/simd.h"
 
 namespace strata::peeling {
 
@@ -51,7 +52,8 @@ double FrameSetup::seconds() const noexcept {
 
 FrameSetup set_up_frames(const DrawList& list, const View& view, const DeviceProfile& profile,
                          const RenderOptions& options) {
-    check_options(options);
+    check_options(options);  // before the scope, which takes an instruction set that the processor has
+    const SimdScope kernels{options.simd};
     const bool is_exact = profile.raster.depth_path == rasterizer::DepthPath::exact;
     const rasterizer::DepthRequest depth{.path = options.depth_path.value_or(profile.raster.depth_path),
                                          .format = profile.depth_buffer(options.depth),

@@ -21,10 +21,13 @@ namespace {
 // stored, which is not D32F, and quotients take r and q of the vertices.
 [[maybe_unused]] [[nodiscard]] bool is_possible(const DepthScale& scale, const Geometry& geometry,
                                                 const DepthRequest& depth) noexcept {
-    const auto uses = [&](auto... path) { return ((depth.path == path || depth.reference == path) || ...); };
+    const auto is_quotient = [](DepthPath path) {
+        return path == DepthPath::perspective_rq || path == DepthPath::depth_replace;
+    };
     const bool has_chip_units = scale.z_units == scale.code_units && depth.format != DepthFormat::d32f;
-    return (!uses(DepthPath::window_z, DepthPath::w_buffer) || has_chip_units) &&
-           (!uses(DepthPath::perspective_rq, DepthPath::depth_replace) || geometry.extras.has_rq);
+    const bool stores_chip_depth = depth.path == DepthPath::window_z || depth.path == DepthPath::w_buffer;
+    const bool takes_quotient = is_quotient(depth.path) || (depth.reference && is_quotient(*depth.reference));
+    return (!stores_chip_depth || has_chip_units) && (!takes_quotient || geometry.extras.has_rq);
 }
 
 }  // namespace
