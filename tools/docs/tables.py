@@ -67,7 +67,7 @@ MARKED = re.compile(r"(<!-- table (\w+): [\w/.]+ -->\n)(.*?)(<!-- end of table -
 COUNTS = [
     ("README.md", "[{} mistakes on {} scenes]", "tools/oracle/suite/MISTAKES.md", "Of {} mistakes * are named first in at least one of {} scenes"),
     ("tools/oracle/SHOWN.md", "| {1} of {0} on {2} scenes, none of {3} diagnoses names a wrong one", "tools/oracle/suite/MISTAKES.md",
-     "Of {} mistakes {} are named first in at least one of {} scenes*Of {} diagnoses 0 name another mistake"),
+     "Of {} mistakes {} are named first in at least one of {} scenes*0 of {} diagnoses name another mistake"),
     ("README.md", "[{} scenes, {} algorithms, {} devices]", "tools/lab/hard_cases/RESULTS.md", "renders {} small scenes*by {} algorithms on {} devices"),
     ("README.md", "[{} captures: {} equal in every bit, {} within the bound of their suite, {} outside, {} not modelled]", "tools/lab/hardware_check/RESULTS.md",
      "Of {} captures {} are equal in every bit, {} are within the bound of their suite, and {} are outside. {} show features"),

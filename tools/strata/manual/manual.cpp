@@ -47,9 +47,8 @@ Command add_help(CLI::App& root) {
 Command add_completions(CLI::App& root) {
     auto* app =
         root.add_subcommand("completions", "write a bash script that completes commands, options and their values");
-    app->footer(
-        footer("  strata completions > strata.bash\n  source strata.bash    # zsh: after autoload -U bashcompinit && "
-               "bashcompinit\n"));
+    // zsh reads the script after `autoload -U bashcompinit && bashcompinit`.
+    app->footer(footer("  strata completions > strata.bash\n  strata completions | bash -n\n"));
     return {app, [&root] {
                 print(completions(root));
                 return 0;

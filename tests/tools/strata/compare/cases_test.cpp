@@ -110,7 +110,7 @@ TEST_CASE("a pixel centre on an edge that both triangles or neither draw is diag
             CHECK(found.status == 1);
             CHECK_THAT(found.out, StartsWith(fmt::format("wrong: a centre on an edge is drawn by {} triangle",
                                                          times == 0 ? "neither" : "both")));
-            CHECK_THAT(found.out, Contains("at all 24 pixels that it changes"));
+            CHECK_THAT(found.out, Contains("explains all 24 pixels that it affects"));
         }
     }
 }

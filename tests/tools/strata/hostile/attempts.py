@@ -111,9 +111,9 @@ def name_attempts():
         scene, picture = os.fsdecode(name + b".gltf"), os.fsdecode(name + b".png")
         attempt("names of files", what, make, ["scene", scene], ["scene", scene, "--json"], ["render", scene, *SIZE, "-o", "out.png"],
                 ["render", scene, *SIZE, "--stats", "out.json", "--report", "out.html", "-o", "out.exr"], ["report", scene, *SIZE, "-o", "out"],
-                ["digest", picture, "none" + picture], ["compare", picture, picture, "--junit", "out.xml"], ["info", picture],
-                ["compare", picture, picture, "--json"], ["digest", "x" + scene], ["explain", scene, *SIZE, "--pixel", "4,4", "--svg", "out.svg"])
-    attempt("names of files", "a name of 100,000 bytes", lambda p, _: None, ["scene", LONG_WORD], ["digest", LONG_WORD + ".png"],
+                ["info", "--digests", picture, "none" + picture], ["compare", picture, picture, "--junit", "out.xml"], ["info", picture],
+                ["compare", picture, picture, "--json"], ["info", "--digests", "x" + scene], ["explain", scene, *SIZE, "--pixel", "4,4", "--svg", "out.svg"])
+    attempt("names of files", "a name of 100,000 bytes", lambda p, _: None, ["scene", LONG_WORD], ["info", "--digests", LONG_WORD + ".png"],
             ["render", "teapot", "--camera", LONG_WORD], ["render", "teapot", "--profile", LONG_WORD], ["compare", LONG_WORD, LONG_WORD], [LONG_WORD],
             ["render", "teapot", "--" + LONG_WORD], ["render", "--from", LONG_WORD + ".png"], ["golden", "--check", LONG_WORD], must_fail=True)
 
@@ -212,19 +212,19 @@ def picture_attempts():
     def file(name, content):
         return lambda place, _: write(place, name, content)
     attempt("EXR", "none", file("a.exr", exr()), ["compare", "a.exr", "a.exr"], harmless=True)
-    attempt("PNG", "none", file("a.png", png(8, 8)), ["digest", "a.png"], ["compare", "a.png", "a.png"], harmless=True)
+    attempt("PNG", "none", file("a.png", png(8, 8)), ["info", "--digests", "a.png"], ["compare", "a.png", "a.png"], harmless=True)
     for kind in (b"string", b"stringvector", b"floatvector", b"preview", b"bytes", b"unknown"):
         for size in (2**31 - 1, -5):
             attempt("EXR", f"an attribute {kind.decode()} of {size} bytes", file("a.exr", exr(exr_attribute(b"big", kind, b"abcd" * 4, size))),
-                    ["digest", "a.exr"], ["compare", "a.exr", "a.exr"], ["info", "a.exr"], must_fail=True)
+                    ["info", "--digests", "a.exr"], ["compare", "a.exr", "a.exr"], ["info", "a.exr"], must_fail=True)
     for what, content in (("a row of 2^31 pixels", exr(window=(0, 0, 2**31 - 2, 0))), ("corners that cross", exr(window=(5, 5, -5, -5))),
                           ("a picture without its pixels", exr(window=(0, 0, 16383, 16383))),
                           ("tiles of one pixel", exr(exr_attribute(b"tiles", b"tiledesc", struct.pack("<IIB", 1, 1, 0)), (0, 0, 16383, 16383), 2 | 0x200)),
                           ("2^31 chunks", exr(exr_attribute(b"chunkCount", b"int", struct.pack("<i", 2**31 - 1)) +
                                               exr_attribute(b"type", b"string", b"scanlineimage") + exr_attribute(b"name", b"string", b"n"), version=2 | 0x1000, end=b"\0"))):
-        attempt("EXR", what, file("a.exr", content), ["digest", "a.exr"], ["compare", "a.exr", "a.exr"], ["diagnose", "planes:count=1", "a.exr"], must_fail=True)
+        attempt("EXR", what, file("a.exr", content), ["info", "--digests", "a.exr"], ["compare", "a.exr", "a.exr"], ["diagnose", "planes:count=1", "a.exr"], must_fail=True)
     hostile = exr(exr_attribute(b"name", b"string", MARKUP.encode()), channels=(ESCAPES.encode()[:30], MARKUP.encode()[:30]))
-    attempt("EXR", "names of channels and parts with escapes and markup", file("a.exr", hostile), ["digest", "a.exr"], ["digest", "a.exr", "--channels"],
+    attempt("EXR", "names of channels and parts with escapes and markup", file("a.exr", hostile), ["info", "--digests", "a.exr"], ["digest", "a.exr", "--channels"],
             ["compare", "a.exr", "a.exr"], ["compare", "a.exr", "a.exr", "--json"], ["compare", "a.exr", "a.exr", "--junit", "out.xml", "--report", "out.html"])
     lie = bytearray(png(8, 8))
     lie[33:37] = struct.pack(">I", 2**31 - 1)
@@ -232,10 +232,10 @@ def picture_attempts():
     short = png(data=b"")[:16] + header + struct.pack(">I", zlib.crc32(b"IHDR" + header)) + png(data=b"")[33:]
     for what, content in (("a chunk of 2 GiB in a PNG", bytes(lie)), ("the pixels of another size", png(8, 8, data=bytes(10))),
                           ("16384x16384 of 16 bits, without pixels", short)):
-        attempt("PNG", what, file("a.png", content), ["digest", "a.png"], ["compare", "a.png", "a.png"], must_fail=True)
+        attempt("PNG", what, file("a.png", content), ["info", "--digests", "a.png"], ["compare", "a.png", "a.png"], must_fail=True)
     profile = b"\0\0" + zlib.compress(bytes(200 * 2**20))
     chunk = struct.pack(">I", len(profile) + 1) + b"iCCP" + b"p" + profile + struct.pack(">I", zlib.crc32(b"iCCPp" + profile))
-    attempt("PNG", "a colour profile that unpacks to 200 MB", file("a.png", png(8, 8, chunks=chunk)), ["digest", "a.png"], ["compare", "a.png", "a.png"])
+    attempt("PNG", "a colour profile that unpacks to 200 MB", file("a.png", png(8, 8, chunks=chunk)), ["info", "--digests", "a.png"], ["compare", "a.png", "a.png"])
 
 
 gltf_attempts()

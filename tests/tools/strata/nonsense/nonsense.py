@@ -41,6 +41,7 @@ ACCEPTED = {
     ("*", "--fragment-memory", "4294967297"): "a size of 4 GiB",
     ("*", "--fragment-memory", "9223372036854775808"): "a limit that no machine reaches",
     ("*", "--max-memory", "9223372036854775808"): "a limit that no machine reaches",
+    ("*", "--max-memory", "4294967297"): "a limit of 4 GiB",
     ("*", "--alpha", "-0"): "zero",
     ("*", "--compare-epsilon", "-0"): "zero",
     ("*", "--overestimation", "-0"): "zero",
