@@ -4,7 +4,7 @@
 // Rule     Under reversed depth memory holds keys (rasterizer/rules/depth_key.h); depth targets are returned as depths.
 //          With the origin lower_left memory begins at the lowest row; images and pixel coordinates are returned with y
 //          counted from the top. The first of several pixels is the first in memory.
-// Tests    tests/peeling/frame/origin_test.cpp, reversed_depth_test.cpp
+// Tests    tests/peeling/reversed_depth_test.cpp, frame/origin_test.cpp
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -2,7 +2,7 @@
 //
 // Rule     Algorithm::listed determines the order in every list and table; algorithms with one number stay in the order
 //          of their file.
-// Tests    tests/peeling/frame/refusals_test.cpp, passes_test.cpp; tests/lint/specification_covers.py: each name has a
+// Tests    tests/peeling/passes_test.cpp, frame/refusals_test.cpp; tests/lint/specification_covers.py: each name has a
 //          section in the specification
 #include "peeling/registry.h"
 

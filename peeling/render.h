@@ -5,7 +5,7 @@
 //          refusal that names the feature, checked in the order of pipeline/reference/devices.md 9.2. Defaults are
 //          those of devices.md 11. Kernels run on the instruction set that the options name, in the calling thread and
 //          in the workers.
-// Tests    tests/peeling/frame/refusals_test.cpp, comparison_test.cpp
+// Tests    tests/peeling/comparison_test.cpp, frame/refusals_test.cpp
 #pragma once
 #include <functional>
 #include <memory>

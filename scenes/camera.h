@@ -4,7 +4,7 @@
 // Rule     gluLookAt and gluPerspective in binary64 with sin and cos of scenes/numbers/elementary.h; matrices
 //          column-major, clip depth -1 to 1 unless with_clip_convention converts it.
 // Source   scenes/reference/scenes.md 7; GLU 1.3 sections 4.1 and 4.2; glTF 2.0 section 3.10.3 (also infinite far).
-// Tests    tests/scenes/camera_test.cpp against wide arithmetic, camera_file_test.cpp
+// Tests    tests/scenes/camera_test.cpp against wide arithmetic, files/camera_file_test.cpp
 #pragma once
 #include <string>
 

@@ -3,7 +3,7 @@
 // Rule     peeling/algorithms/NAME.cpp is one listing: its head states paper, needs, passes and invariant; namespace
 //          listing::NAME holds its passes and `std::vector<Algorithm> entries()`. The build finds the files by itself
 //          (listings.cpp.in); no list has to be edited.
-// Tests    tests/peeling/frame/refusals_test.cpp, passes_test.cpp
+// Tests    tests/peeling/passes_test.cpp, frame/refusals_test.cpp
 #pragma once
 #include <vector>
 

@@ -1,7 +1,7 @@
 // peeling/frame/make_frame.h - the pipeline's Frame for an algorithm and the options of a renderer.
 //
 // Rule     Defaults are those of pipeline/reference/devices.md 11.
-// Tests    tests/peeling/comparison_test.cpp, path_test.cpp
+// Tests    tests/peeling/comparison_test.cpp, frame/path_test.cpp
 #pragma once
 #include "peeling/frame/setup.h"
 #include "pipeline/frame/frame.h"

@@ -4,7 +4,7 @@
 //          thread and executes every step in order. Steps are reported after they end, the stages of a batch after each
 //          has processed all lanes. The emulator's own work
 //          (opaque priming) is reported as uncounted.
-// Tests    tests/tools/oracle/passes/passes_test.cpp, explain_test.cpp
+// Tests    tests/tools/oracle/passes/passes_test.cpp, tests/tools/oracle/explain/explain_test.cpp
 #pragma once
 #include <functional>
 #include <string_view>

@@ -4,7 +4,7 @@
 // Rule     As in depth_hypothesis.h, defaults are measured on hardware ([M]) or assumed ([A]). interpolation_hypotheses
 //          (hypotheses.h) lists the alternatives.
 // Source   rasterizer/reference/attributes.md 2.2 to 2.5, 3.2 and 3.3; chip-depth.md 8; chip-geometry.md 5.1.
-// Tests    tests/rasterizer/chip/color_weights_test.cpp, truncated_coordinates_test.cpp
+// Tests    tests/rasterizer/chip/color_weights_test.cpp, tests/rasterizer/values/truncated_coordinates_test.cpp
 #pragma once
 #include <cstdint>
 

@@ -158,10 +158,11 @@ std::string direction_of(const std::vector<Residual>& channel, std::string_view 
     constexpr std::size_t fewest = 64;
     if (channel.size() < fewest) return "";
     const auto exceeds = [](double value, double limit, double error) { return std::fabs(value) > limit + 3 * error; };
+    const Fit any = fit_of(channel, Property::transmittance);  // the mean and its error are those of every property
+    if (exceeds(any.mean, most_mean, any.error))
+        return fmt::format("{} is off by {:+.1f} codes on average, and rounding has no direction", name, any.mean);
     for (const Property property : {Property::transmittance, Property::layers, Property::alpha, Property::color}) {
         const Fit fit = fit_of(channel, property);
-        if (exceeds(fit.mean, most_mean, fit.error))
-            return fmt::format("rounding has no direction, but {} is off by {:+.1f} codes on average", name, fit.mean);
         if (exceeds(fit.slope, most_slope, fit.error))
             return fmt::format("the differences of {} follow {}", name, words_of(property));
     }

@@ -4,7 +4,7 @@
 // Rule     The right structure contains all visible fragments of a pixel, near to far. Of fragments at equal depths,
 //          peels keep the first, the last, all, or a mixture (peeling/reference/keys-and-counts.md 2.2); each is right,
 //          if the whole picture follows one of them. A wrong structure is made by a rule (rule.h).
-// Tests    tests/tools/oracle/rules/structure_test.cpp, search_test.cpp
+// Tests    tests/tools/oracle/rules/structure_test.cpp, tests/tools/oracle/search/search_test.cpp
 #pragma once
 #include <span>
 #include <vector>

@@ -152,6 +152,7 @@ Session open_session(RunOptions& options) {
     if (options.sample && options.samples > 1) take_sample(options, session.profile);
     const auto start = std::chrono::steady_clock::now();
     session.scene = scenes::load_scene(options.scene, options.scene_options);
+    // Refused before the frame is drawn; AtomicFile refuses other results.
     for (const std::string& path : {options.output, options.stats}) scenes::check_not_read(path);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     say_detail(fmt::format("read {}: meshes: {}, drawn: {}, in {}", options.scene, session.scene.list.meshes.size(),
