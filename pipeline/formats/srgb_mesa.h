@@ -1,9 +1,8 @@
 // pipeline/formats/srgb_mesa.h - the linear values of the 256 sRGB codes as Mesa's software drivers have them.
 //
 // Rule     llvmpipe: code k up to 15 is k f32(1 / (12.6 * 255)), above that the cubic (k^2 c2 + c0) + (k^2 c3 + c1) k,
-// with
-//          each product and sum rounded to binary32, or fused where the processor fuses. softpipe: the value of srgb.h
-//          in 8 significant decimal digits, rounded to binary32.
+//          with each product and sum rounded to binary32, or fused where the processor fuses. softpipe: the value of
+//          srgb.h in 8 significant decimal digits, rounded to binary32.
 // Source   pipeline/reference/texturing.md 3.5 (measured; gallivm/lp_bld_format_srgb.c, util/format_srgb.py).
 // Tests    tests/pipeline/textures/texel_lerps_test.cpp
 #pragma once

@@ -1,9 +1,8 @@
 // tools/lab/cost/cost_table.h - ranks the rows of `strata cost` in one table, best first.
 //
 // Rule     Rows are ordered by RMSE from the sorted picture, then by RMSE from the exact picture, then by time. The
-// first
-//          error is the choice's own; the second also has what the device rounds. Rows of the chain have no sorted
-//          picture and no time; they and refused rows stand last, in the order of the plan.
+//          first error is the choice's own; the second also has what the device rounds. Rows of the chain have no
+//          sorted picture and no time; they and refused rows stand last, in the order of the plan.
 // Tests    tests/tools/lab/cost/cost_table_test.cpp
 #pragma once
 #include "tools/lab/sweep/sweep.h"

@@ -2,8 +2,7 @@
 // and depth format.
 //
 // Rule     A row is a combination, in the order case, profile, depth format, algorithm; the last changes fastest. A
-// line
-//          has every key; values that a refused combination does not have are null.
+//          line has every key; values that a refused combination does not have are null.
 // Tests    tests/tools/lab/hard_cases/hard_sweep_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>

@@ -1,8 +1,7 @@
 // tools/lab/sweep/shard.h - the share of a sweep's rows that one process measures, and the names of its files.
 //
 // Rule     Shard K of N has the rows K, K + N, ... (from 1). Neighbouring rows take about equally long, so that shards
-// end
-//          at about the same time. A whole sweep has file names without a shard.
+//          end at about the same time. A whole sweep has file names without a shard.
 // Tests    tests/tools/lab/sweep/sweep_test.cpp
 #pragma once
 #include <CLI/CLI.hpp>

@@ -2,8 +2,7 @@
 // another order, or may merge them.
 //
 // Rule     Neighbours may exchange their order if a movement of 1/16 pixel changes their distance by as much as it is.
-// A
-//          fragment that may meet the opaque surface is on either side of it. Neighbours at most `close_codes` apart
+//          A fragment that may meet the opaque surface is on either side of it. Neighbours at most `close_codes` apart
 //          are one depth for some right ports: of a group of such neighbours any one may be kept, the group may be
 //          reversed, or it may be one layer with the MAX of each channel.
 // Tests    tests/tools/oracle/fragments/near_depths_test.cpp

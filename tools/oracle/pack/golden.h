@@ -1,8 +1,7 @@
 // tools/oracle/pack/golden.h - golden packs: derives a pack from a scene and its state, writes, reads and checks it.
 //
 // Rule     The format is tools/oracle/pack/PACK.md. Writing and checking use the same derivation with different sinks
-// for
-//          its files.
+//          for its files.
 // Tests    tests/tools/oracle/pack/golden_test.cpp
 #pragma once
 #include <cstdint>

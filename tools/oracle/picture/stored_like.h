@@ -1,10 +1,9 @@
 // tools/oracle/picture/stored_like.h - a rendered target as an image file holds it.
 //
 // Rule     PNG, JPEG, TGA, BMP and TIFF files of 8 or 16 bits hold sRGB-encoded colours (Target::holds_encoded). A
-// target
-//          is converted as the program's writer of PNG does: divided by alpha if the file's colours are straight,
-//          encoded if the scene blends linear values, then rounded to a code. Targets of 8-bit codes in the encoded
-//          space are left as they are. EXR, HDR, NPY and plain numbers hold what was rendered.
+//          target is converted as the program's writer of PNG does: divided by alpha if the file's colours are
+//          straight, encoded if the scene blends linear values, then rounded to a code. Targets of 8-bit codes in the
+//          encoded space are left as they are. EXR, HDR, NPY and plain numbers hold what was rendered.
 // Tests    tests/tools/oracle/picture/stored_like_test.cpp
 #pragma once
 #include <optional>
