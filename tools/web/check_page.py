@@ -37,7 +37,7 @@ def options_of(question):
     options = ["--size", "x".join(map(str, question["size"]))]
     for name, value in question.items():
         if name in ("alpha", "profile", "colour"):
-            options += ["--" + name, str(value)]
+            options += ["--" + {"colour": "color-space"}.get(name, name), str(value)]
         if name in ("background", "orbit"):
             options += ["--" + name, ",".join(map(str, value))]
     return options
