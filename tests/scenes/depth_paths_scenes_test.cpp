@@ -6,6 +6,7 @@
 #include "pipeline/vertices/prepare.h"
 #include "rasterizer/walk/tile_rasterizer.h"
 #include "scenes/camera.h"
+#include "tests/support/skip.h"
 
 namespace {
 
@@ -63,7 +64,7 @@ void check_cure(const std::string& spec, int size, std::uint64_t at_least) {
     const char* const named = std::getenv("STRATA_MODELS_DIR");
     const std::filesystem::path folder = named != nullptr ? named : STRATA_MODELS_DIR;
     if (std::filesystem::is_directory(folder)) return folder;
-    WARN("SKIPPED: no models in '" << folder.string() << "'; set STRATA_MODELS_DIR to their folder");
+    strata::test::skip("no models in '" + folder.string() + "'; set STRATA_MODELS_DIR to their folder");
     return {};
 }
 

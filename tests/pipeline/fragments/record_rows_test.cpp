@@ -8,6 +8,7 @@
 #include "rasterizer/walk/rows.h"
 #include "rasterizer/walk/tile_rasterizer.h"
 #include "tests/rasterizer/scene.h"
+#include "tests/support/skip.h"
 
 // A separate namespace: models of several tests use the same short names, and a unity build joins their files.
 namespace strata::testing::record_rows_model {
@@ -95,7 +96,7 @@ TEST_CASE("rows record the fragments of batches with their order and values for 
 }
 
 TEST_CASE("a record that rows exceed is emptied and its memory does not grow further") {
-    if (chosen_simd() < Simd::avx2) return;
+    if (chosen_simd() < Simd::avx2) return strata::test::skip("no AVX2: rows are not recorded");
     const DepthRequest depth{DepthPath::float32, DepthFormat::d32f};
     const Geometry geometry = rasterizer::random_triangles(5, 400, 60, {{}, depth});
     const Rect region{0, 0, 70, 40};

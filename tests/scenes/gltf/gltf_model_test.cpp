@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "tests/scenes/gltf/gltf_file.h"
+#include "tests/support/skip.h"
 
 #ifndef STRATA_MODELS_DIR
 #define STRATA_MODELS_DIR ""
@@ -36,7 +37,7 @@ fs::path models() {
     const char* const named = std::getenv("STRATA_MODELS_DIR");
     const fs::path folder = named != nullptr ? named : STRATA_MODELS_DIR;
     if (fs::is_directory(folder)) return folder;
-    WARN("SKIPPED: no models in '" << folder.string() << "'; set STRATA_MODELS_DIR to their folder");
+    strata::test::skip("no models in '" + folder.string() + "'; set STRATA_MODELS_DIR to their folder");
     return {};
 }
 

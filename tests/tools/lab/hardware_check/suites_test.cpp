@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "pipeline/device/check.h"
+#include "tests/support/skip.h"
 #include "tools/lab/hardware_check/drawing/compare.h"
 #include "tools/lab/hardware_check/drawing/fixed_pipeline.h"
 
@@ -39,7 +40,7 @@ const std::string textures = STRATA_CAPTURES_DIR "/textures";
 std::string digest_with(const Row& row, const pipeline::DeviceProfile& profile) {
     const Drawing drawing = draw(*find_suite(row.suite), row.picture, profile, textures);
     if (drawing.reason.starts_with("needs textures/")) {
-        WARN("SKIPPED: " << row.picture << ": " << drawing.reason << "; none in " << textures);
+        strata::test::skip(row.picture + ": " + drawing.reason + "; none in " + textures);
         return row.digest;
     }
     REQUIRE(drawing.picture);

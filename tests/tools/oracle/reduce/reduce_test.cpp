@@ -8,6 +8,7 @@
 #include "peeling/registry.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/camera.h"
+#include "tests/support/skip.h"
 #include "tools/oracle/emulations/catalogue.h"
 #include "tools/oracle/emulations/mistake_renderer.h"
 #include "tools/oracle/reduce/cut_scene.h"
@@ -242,7 +243,7 @@ TEST_CASE("three failures of a model of 200000 triangles are reduced to at most 
           "[slow]") {
     const std::string model = std::string(STRATA_MODELS_DIR) + "/dragon.glb";
     if (!std::filesystem::exists(model)) {
-        WARN("SKIPPED: " << model << " is not there");
+        strata::test::skip(model + " is not there");
         return;
     }
     OpenScene opened{.scene = scenes::load_scene(model, {}),

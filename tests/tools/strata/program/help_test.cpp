@@ -24,8 +24,9 @@ std::vector<std::string> examples_of(const std::string& help) {
 }  // namespace
 
 TEST_CASE("every example of every --help runs as printed", "[long]") {
-    const std::string verb = GENERATE(from_range(commands()));
-    if (verb == "hardware-check") return;  // its examples need hardware captures
+    // The examples of hardware-check need hardware captures.
+    const std::string verb =
+        GENERATE(filter([](const std::string& name) { return name != "hardware-check"; }, from_range(commands())));
     const Folder folder;
     const CommandResult help = run_strata(folder, {verb, "--help"});
     CHECK(help.status == 0);

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <set>
 
+#include "tests/support/skip.h"
 #include "tests/tools/program.h"
 
 using namespace strata::test;
@@ -63,7 +64,7 @@ TEST_CASE("completions have every command and every option and bash and zsh read
     // LC_ALL is set because bash warns of a locale that the machine lacks, such as that of a remote user.
     CHECK(shell(folder, "strata completions > file && LC_ALL=C bash -n file").err.empty());
     if (std::system("command -v zsh >/dev/null 2>&1") != 0) {
-        WARN("SKIPPED: zsh was not found: it does not load the completions");
+        skip("zsh was not found: it does not load the completions");
         return;
     }
     const CommandResult loaded =

@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "scenes/printable.h"
+#include "tests/support/skip.h"
 #include "tests/tools/program.h"
 
 using namespace strata::test;
@@ -97,7 +98,7 @@ TEST_CASE("a terminal gets colours unless NO_COLOR or --color disables them and 
         CHECK(on_terminal(folder, "strata render planes --size 8x8 -o -").find("a terminal cannot show") !=
               std::string::npos);
     } else {
-        WARN("SKIPPED: script was not found: no terminal is tried");
+        skip("script was not found: no terminal is tried");
     }
 }
 

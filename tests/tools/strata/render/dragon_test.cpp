@@ -8,6 +8,7 @@
 #include "peeling/render.h"
 #include "scenes/camera.h"
 #include "tests/support/composite_model.h"
+#include "tests/support/skip.h"
 
 namespace {
 
@@ -57,7 +58,8 @@ TEST_CASE("the picture of the dragon on geforce8 is bit-identical to the model's
     const char* const named = std::getenv("STRATA_MODELS_DIR");
     const auto path = std::filesystem::path{named != nullptr ? named : STRATA_MODELS_DIR} / "dragon.glb";
     if (!std::filesystem::exists(path)) {
-        WARN("SKIPPED: no dragon.glb in '" << path.parent_path().string() << "'; set STRATA_MODELS_DIR to its folder");
+        strata::test::skip("no dragon.glb in '" + path.parent_path().string() +
+                           "'; set STRATA_MODELS_DIR to its folder");
         return;
     }
     const scenes::Scene scene = scenes::load_scene(path.string(), {});

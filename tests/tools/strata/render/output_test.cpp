@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/skip.h"
 #include "tests/tools/program.h"
 
 using namespace strata::test;
@@ -27,9 +28,8 @@ std::string digest_line(const Folder& folder, const std::string& file) {
 }  // namespace
 
 TEST_CASE("strata info --digests of an image prints the digest that its statistics contain") {
-    const auto format = GENERATE(as<std::string>{}, "rgba8", "rgba16f", "rgba32f");
-    const auto ending = GENERATE(as<std::string>{}, ".exr", ".png");
-    if (ending == ".png" && format != "rgba8") return;  // PNG files hold 8-bit codes
+    const auto [format, ending] = GENERATE(table<std::string, std::string>(
+        {{"rgba8", ".exr"}, {"rgba8", ".png"}, {"rgba16f", ".exr"}, {"rgba32f", ".exr"}}));  // PNG files hold codes
     const Folder folder;
     const CommandResult ended = render(folder, {"--color-format", format, "--stats", "-", "-o", "out" + ending});
     REQUIRE(ended.status == 0);
@@ -175,7 +175,7 @@ TEST_CASE("a locale with decimal commas changes no byte") {
     const Folder folder, locales;
     const std::string make = "localedef -i de_DE -f UTF-8 " + (locales / "de_DE.UTF-8");
     if (shell(folder, make).status > 1) {  // status 1: written, with warnings
-        WARN("localedef cannot make de_DE.UTF-8 (package locales): decimal commas are not tested");
+        skip("localedef cannot make de_DE.UTF-8 (package locales): decimal commas are not tested");
         return;
     }
     const Setting german{
