@@ -90,7 +90,7 @@ Reference::Reference(Picture picture, std::string name) : picture_{std::move(pic
 
 std::string size_text(const Picture& picture) {
     std::string text;
-    for (const oracle::Target& target : picture.targets)
+    for (const oracle::TargetImage& target : picture.targets)
         text += (text.empty() ? std::to_string(target.width) + "x" + std::to_string(target.height) + " " : ", ") +
                 (target.part.empty() ? "" : target.part + " ") + target.name + " of " +
                 std::to_string(target.channels) + " x " + std::string{oracle::name(target.code)};

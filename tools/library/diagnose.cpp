@@ -60,7 +60,7 @@ Diagnosed diagnose(const Scene& scene, const Picture& candidate, const Algorithm
 
 Judgement judge(const Scene& scene, const Picture& candidate, const DeviceProfile& profile,
                 const RenderOptions& options, const Multisampling& sampling) {
-    const auto colors = std::ranges::find(candidate.targets, oracle::Meaning::color, &oracle::Target::meaning);
+    const auto colors = std::ranges::find(candidate.targets, oracle::Meaning::color, &oracle::TargetImage::meaning);
     if (colors == candidate.targets.end()) throw InputError("candidate", "targets", "colours", "none");
     RenderOptions of_candidate = options;
     of_candidate.width = colors->width;

@@ -23,7 +23,7 @@ using Digests = std::vector<scenes::FileDigest>;
 
 // The digest of a target that scenes/reference/images.md 5 does not define, or of one channel: a hash over name, size
 // and codes.
-std::string digest_of(const oracle::Target& target, int first, int count, const std::string& name) {
+std::string digest_of(const oracle::TargetImage& target, int first, int count, const std::string& name) {
     pipeline::ValueDigest digest{name};
     digest.add(static_cast<std::uint32_t>(target.width));
     digest.add(static_cast<std::uint32_t>(target.height));
@@ -32,7 +32,7 @@ std::string digest_of(const oracle::Target& target, int first, int count, const 
     return digest.hexadecimal();
 }
 
-std::string format_of(const oracle::Target& target) {
+std::string format_of(const oracle::TargetImage& target) {
     const std::string channels[] = {"r", "rg", "rgb", "rgba"};
     return channels[std::clamp(target.channels, 1, 4) - 1] + "/" + std::string(oracle::name(target.code));
 }
@@ -40,7 +40,7 @@ std::string format_of(const oracle::Target& target) {
 // One digest per channel.
 Digests channels_of(const std::string& file) {
     Digests digests;
-    for (const oracle::Target& target : oracle::read_picture(file).targets)
+    for (const oracle::TargetImage& target : oracle::read_picture(file).targets)
         for (int c = 0; c < target.channels; ++c) {
             const std::string channel = target.channels > 1 ? std::string(1, "RGBA"[c & 3]) : target.name;
             const std::string format = channel + "/" + std::string(oracle::name(target.code));
@@ -62,7 +62,7 @@ bool has_8_bit_colors(const std::string& file) {
 // so its codes are hashed as they are.
 Digests digests_of(const std::string& file) {
     if (scenes::image_file(file) == scenes::ImageFile::png && !has_8_bit_colors(file)) {
-        const oracle::Target target = oracle::read_picture(file).targets.at(0);
+        const oracle::TargetImage target = oracle::read_picture(file).targets.at(0);
         if (target.channels < 3 || target.code != oracle::Code::unorm8)
             return {{"", "color", format_of(target), target.width, target.height,
                      digest_of(target, 0, target.channels, format_of(target))}};

@@ -20,11 +20,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-enum class Listed : std::uint8_t { algorithms, profiles, scenes };
+enum class ListKind : std::uint8_t { algorithms, profiles, scenes };
 
 // The options of the command line; with an empty name all entries are listed.
 struct ListOptions {
-    Listed what = Listed::algorithms;
+    ListKind what = ListKind::algorithms;
     std::string name;
     bool json = false;
 };
@@ -205,9 +205,9 @@ int show_profile(const ListOptions& options) {
 
 int list(const ListOptions& options) {
     switch (options.what) {
-        case Listed::algorithms: return list_algorithms(options);
-        case Listed::profiles: return options.name.empty() ? list_profiles(options) : show_profile(options);
-        case Listed::scenes: return list_scenes(options);
+        case ListKind::algorithms: return list_algorithms(options);
+        case ListKind::profiles: return options.name.empty() ? list_profiles(options) : show_profile(options);
+        case ListKind::scenes: return list_scenes(options);
     }
     return 0;  // unreachable: the enum is closed
 }
@@ -218,8 +218,8 @@ Command add_list(CLI::App& root) {
     auto* app = root.add_subcommand(
         "list", "list the algorithms, emulated devices (profiles) or built-in scenes, or show one of them");
     const auto options = std::make_shared<ListOptions>();
-    const std::vector<Choice<Listed>> choices{
-        {"algorithms", Listed::algorithms}, {"profiles", Listed::profiles}, {"scenes", Listed::scenes}};
+    const std::vector<Choice<ListKind>> choices{
+        {"algorithms", ListKind::algorithms}, {"profiles", ListKind::profiles}, {"scenes", ListKind::scenes}};
     add_choice(
         *app, options->what, "WHAT", choices,
         "algorithms: paper, passes, ties, and which profiles run them; profiles: each number of one, and where it "

@@ -15,13 +15,13 @@ namespace strata::tools {
 namespace {
 
 enum class Amount : std::uint8_t { quiet, usual, verbose };
-enum class Colors : std::uint8_t { automatic, always, never };
+enum class ColorMode : std::uint8_t { automatic, always, never };
 
 // The settings of -q, -v and --color. They are process-wide, and set while the command line is parsed, before other
 // threads start.
 struct Wanted {
     Amount amount = Amount::usual;
-    Colors colors = Colors::automatic;
+    ColorMode colors = ColorMode::automatic;
 };
 Wanted& wanted() {
     static Wanted of_process;
@@ -29,7 +29,7 @@ Wanted& wanted() {
 }
 
 bool shows_colors(Stream stream) {
-    if (wanted().colors != Colors::automatic) return wanted().colors == Colors::always;
+    if (wanted().colors != ColorMode::automatic) return wanted().colors == ColorMode::always;
     const char *no_color = std::getenv("NO_COLOR"), *terminal = std::getenv("TERM");
     if (no_color != nullptr && *no_color != '\0') return false;
     if (terminal == nullptr || std::string_view(terminal) == "dumb") return false;
@@ -72,8 +72,8 @@ void add_message_options(CLI::App& app) {
            "-v,--verbose", [] { wanted().amount = Amount::verbose; },
            "say on standard error what is done, which files are written and how long it takes")
         ->trigger_on_parse();
-    const std::vector<Choice<Colors>> choices{
-        {"auto", Colors::automatic}, {"always", Colors::always}, {"never", Colors::never}};
+    const std::vector<Choice<ColorMode>> choices{
+        {"auto", ColorMode::automatic}, {"always", ColorMode::always}, {"never", ColorMode::never}};
     add_choice(app, wanted().colors, "--color", choices,
                "colours of messages and tables, not of pictures (default auto: on a terminal, unless NO_COLOR is set)")
         ->trigger_on_parse();

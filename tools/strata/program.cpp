@@ -128,40 +128,40 @@ std::string message(const CLI::ParseError& error, CLI::App& root) {
 }
 
 // The commands in the order of --help. An entry without a function is an experiment.
-struct Listed {
+struct ListedCommand {
     const char* group;
     std::string_view name;
     Command (*add)(CLI::App& root) = nullptr;
 };
 constexpr std::array listed{
-    Listed{"Render and look", "render", add_render},
-    Listed{"Render and look", "report", add_report},
-    Listed{"Render and look", "explain", add_explain},
-    Listed{"Render and look", "passes", add_passes},
-    Listed{"Render and look", "layers", add_layers},
-    Listed{"Render and look", "scene", add_scene},
-    Listed{"Render and look", "info", add_info},
-    Listed{"Check a port", "compare", add_compare},
-    Listed{"Check a port", "golden", add_golden},
-    Listed{"Check a port", "diagnose", add_diagnose},
-    Listed{"Check a port", "reduce", add_reduce},
-    Listed{"Experiments", "cost"},
-    Listed{"Experiments", "invariance"},
-    Listed{"Experiments", "multisampling"},
-    Listed{"Experiments", "hard-cases"},
-    Listed{"Experiments", "reproduce"},
-    Listed{"Experiments", "bench"},
-    Listed{"Devices", "probe"},
-    Listed{"Devices", "infer"},
-    Listed{"Devices", "hardware-check"},
-    Listed{"Lists and help", "list", add_list},
-    Listed{"Lists and help", "help", add_help},
-    Listed{"Lists and help", "completions", add_completions},
+    ListedCommand{"Render and look", "render", add_render},
+    ListedCommand{"Render and look", "report", add_report},
+    ListedCommand{"Render and look", "explain", add_explain},
+    ListedCommand{"Render and look", "passes", add_passes},
+    ListedCommand{"Render and look", "layers", add_layers},
+    ListedCommand{"Render and look", "scene", add_scene},
+    ListedCommand{"Render and look", "info", add_info},
+    ListedCommand{"Check a port", "compare", add_compare},
+    ListedCommand{"Check a port", "golden", add_golden},
+    ListedCommand{"Check a port", "diagnose", add_diagnose},
+    ListedCommand{"Check a port", "reduce", add_reduce},
+    ListedCommand{"Experiments", "cost"},
+    ListedCommand{"Experiments", "invariance"},
+    ListedCommand{"Experiments", "multisampling"},
+    ListedCommand{"Experiments", "hard-cases"},
+    ListedCommand{"Experiments", "reproduce"},
+    ListedCommand{"Experiments", "bench"},
+    ListedCommand{"Devices", "probe"},
+    ListedCommand{"Devices", "infer"},
+    ListedCommand{"Devices", "hardware-check"},
+    ListedCommand{"Lists and help", "list", add_list},
+    ListedCommand{"Lists and help", "help", add_help},
+    ListedCommand{"Lists and help", "completions", add_completions},
 };
 
 // Adds a listed command. An experiment that this program does not contain gets only its name and description, for
 // lists; run_lab has already run it otherwise.
-Command add_listed(CLI::App& root, const Listed& entry, const std::vector<NamedCommand>& experiments) {
+Command add_listed(CLI::App& root, const ListedCommand& entry, const std::vector<NamedCommand>& experiments) {
     const auto held = std::ranges::find(experiments, entry.name, &NamedCommand::name);
     Command command;
     if (entry.add != nullptr)
@@ -256,7 +256,7 @@ int run(const std::vector<std::string>& words, const std::vector<NamedCommand>& 
     root.set_version_flag("--version", "strata " STRATA_VERSION);
     root.footer("strata COMMAND --help says more about a command, with examples.");
     std::vector<Command> commands;
-    for (const Listed& entry : listed) commands.push_back(add_listed(root, entry, experiments));
+    for (const ListedCommand& entry : listed) commands.push_back(add_listed(root, entry, experiments));
     add_message_options(root);
     for (const Command& command : commands) add_message_options(*command.app);
     refuse_values_of_flags(commands);

@@ -55,7 +55,7 @@ TEST_CASE("a pixel's history has the fragments of that pixel and the last of its
     CHECK_THAT(oracle::to_text(history), Contains("near") && Contains("far"));
     const auto shown = passes(scene, algorithm("dual"), profile("ideal"), small);
     REQUIRE_FALSE(shown.empty());
-    CHECK(shown.back().kind == oracle::PassKind::published);
+    CHECK(shown.back().kind == oracle::ReportedPassKind::published);
 }
 
 // The left edge is in the middle of column 2, so it covers the two samples of Direct3D's four that lie right of it.

@@ -22,7 +22,7 @@ struct Distances {
 };
 
 // Over all channels, pixel by pixel, in binary64.
-void measure_noise(const Pair& pair, TargetReport& report) {
+void measure_noise(const TargetPair& pair, TargetReport& report) {
     if (pair.reference->meaning != Meaning::color || pair.reference->code == Code::integer) return;
     double squares = 0;
     for (std::size_t i = 0; i < pair.reference->pixels(); ++i)
@@ -39,8 +39,8 @@ void measure_noise(const Pair& pair, TargetReport& report) {
 // codes.h: the distance if one of the two is NaN.
 constexpr std::uint32_t nan_distance = ~std::uint32_t{0};
 
-void count_not_numbers(const Pair& pair, std::size_t pixel, TargetReport& report) {
-    const auto has_nan = [&](const Target& target) {
+void count_not_numbers(const TargetPair& pair, std::size_t pixel, TargetReport& report) {
+    const auto has_nan = [&](const TargetImage& target) {
         for (int c = 0; c < std::min(target.channels, pair.channels()); ++c)
             if (std::isnan(target.value_at(pixel, c))) return true;
         return false;
@@ -52,7 +52,7 @@ void count_not_numbers(const Pair& pair, std::size_t pixel, TargetReport& report
     report.first_y = static_cast<int>(pixel / static_cast<std::size_t>(pair.reference->width));
 }
 
-void measure(const Pair& pair, const Tolerances& tolerances, Distances& worst, Comparison& result) {
+void measure(const TargetPair& pair, const Tolerances& tolerances, Distances& worst, Comparison& result) {
     TargetReport report{.part = pair.reference->part,
                         .name = pair.reference->name,
                         .reference = pair.reference->code,
@@ -115,14 +115,15 @@ class Sorter {
     std::optional<Masks> masks_;
 };
 
-std::array<bool, kind_count> tested_kinds(const std::vector<Pair>& pairs, const Sorter& sorter) {
+std::array<bool, kind_count> tested_kinds(const std::vector<TargetPair>& pairs, const Sorter& sorter) {
     std::array<bool, kind_count> tested{};
     const auto of = [&](Kind kind) -> bool& { return tested[static_cast<std::size_t>(kind)]; };
     of(Kind::coverage) = of(Kind::background) = sorter.masks().has_value();
     for (const Kind kind :
          {Kind::layer_missing, Kind::layer_doubled, Kind::layer_swapped, Kind::layer_merged, Kind::layer_other})
         of(kind) = sorter.has_layers();
-    for (const Pair& pair : pairs) of(pair.reference->meaning == Meaning::depth ? Kind::depth : Kind::color) = true;
+    for (const TargetPair& pair : pairs)
+        of(pair.reference->meaning == Meaning::depth ? Kind::depth : Kind::color) = true;
     return tested;
 }
 
@@ -139,7 +140,7 @@ void add(std::vector<KindReport>& kinds, Kind kind, std::size_t pixel, int width
 }
 
 // Uses the budget for pixels of these kinds that are beyond the tolerance in codes: for all of them or for none.
-void spend(std::string_view name, const Budget& budget, std::span<const Kind> of, std::vector<KindReport>& kinds,
+void spend(std::string_view name, const PixelBudget& budget, std::span<const Kind> of, std::vector<KindReport>& kinds,
            Comparison& result) {
     const std::uint64_t allowed =
         budget.allowed(static_cast<std::uint64_t>(result.width) * static_cast<std::uint64_t>(result.height));
@@ -171,13 +172,13 @@ Comparison compare(const Picture& reference, const Picture& candidate, const Tol
                    const Background& background) {
     const FloatEnvironment ours;
     const Pairing pairing = pair_targets(reference, candidate, tolerances.channels);
-    const Target& first = *pairing.pairs[0].reference;
+    const TargetImage& first = *pairing.pairs[0].reference;
     const std::size_t pixels = first.pixels();
     Comparison result{.width = first.width, .height = first.height};
     result.not_compared = pairing.not_compared;
     result.notes = pairing.notes;
     Distances worst{std::vector<std::uint32_t>(pixels), std::vector<std::uint32_t>(pixels), std::vector<bool>(pixels)};
-    for (const Pair& pair : pairing.pairs) measure(pair, tolerances, worst, result);
+    for (const TargetPair& pair : pairing.pairs) measure(pair, tolerances, worst, result);
 
     const Sorter sorter{reference, candidate, pairing, background};
     result.is_tested = tested_kinds(pairing.pairs, sorter);

@@ -34,13 +34,13 @@ inline constexpr std::size_t kind_count = 10;
 [[nodiscard]] std::string_view name(Kind kind) noexcept;
 
 // The number of pixels that may differ: a count, or a share of all pixels, whichever is larger.
-struct Budget {
+struct PixelBudget {
     std::uint64_t pixels = 0;
     double share = 0;  // from 0 to 1
     [[nodiscard]] std::uint64_t allowed(std::uint64_t all) const noexcept {
         return std::max(pixels, static_cast<std::uint64_t>(share * static_cast<double>(all)));
     }
-    friend bool operator==(const Budget&, const Budget&) = default;
+    friend bool operator==(const PixelBudget&, const PixelBudget&) = default;
 };
 
 // The tolerances; 0: none.
@@ -49,11 +49,11 @@ struct Tolerances {
     std::map<std::string, std::uint32_t> target_codes{};  // of targets by name, instead of the two above
     // Pixels that may differ beyond the tolerance in codes, by kind: coverage, the background, layers of any kind,
     // depth, colour; and a budget for the remaining pixels of any kind.
-    Budget coverage{}, background{}, layers{}, depth{}, color{}, pixels{};
+    PixelBudget coverage{}, background{}, layers{}, depth{}, color{}, pixels{};
     ColorChannels channels = ColorChannels::all;  // of colour targets
     friend bool operator==(const Tolerances&, const Tolerances&) = default;
 
-    [[nodiscard]] std::uint32_t codes_of(const Target& target) const {
+    [[nodiscard]] std::uint32_t codes_of(const TargetImage& target) const {
         const auto own = target_codes.find(target.name);
         if (own != target_codes.end()) return own->second;
         return target.meaning == Meaning::depth ? depth_codes : color_codes;

@@ -14,7 +14,7 @@ namespace {
 
 using Color = std::vector<std::uint32_t>;
 
-Color color_at(const Target& target, std::size_t pixel) {
+Color color_at(const TargetImage& target, std::size_t pixel) {
     const auto channels = static_cast<std::size_t>(target.channels);
     const auto first = target.codes.begin() + static_cast<std::ptrdiff_t>(pixel * channels);
     return {first, first + static_cast<std::ptrdiff_t>(channels)};
@@ -22,7 +22,7 @@ Color color_at(const Target& target, std::size_t pixel) {
 
 // The commonest colour of these pixels, if at least half of them have it.
 template <class Pixels>
-std::optional<Color> commonest(const Target& target, const Pixels& pixels) {
+std::optional<Color> commonest(const TargetImage& target, const Pixels& pixels) {
     std::map<Color, std::size_t> counts;
     for (const std::size_t pixel : pixels) ++counts[color_at(target, pixel)];
     const auto most = std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; });
@@ -30,7 +30,7 @@ std::optional<Color> commonest(const Target& target, const Pixels& pixels) {
     return most->first;
 }
 
-std::vector<std::size_t> edge_of(const Target& target) {
+std::vector<std::size_t> edge_of(const TargetImage& target) {
     std::vector<std::size_t> edge;
     const int w = target.width, h = target.height;
     for (int y = 0; y < h; ++y)
@@ -40,27 +40,27 @@ std::vector<std::size_t> edge_of(const Target& target) {
     return edge;
 }
 
-Mask other_than(const Target& target, const Color& background) {
+Mask other_than(const TargetImage& target, const Color& background) {
     Mask mask(target.pixels());
     for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = color_at(target, i) != background;
     return mask;
 }
 
-Mask where(const Target& target, auto&& holds) {
+Mask where(const TargetImage& target, auto&& holds) {
     Mask mask(target.pixels());
     for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = holds(i);
     return mask;
 }
 
 // The codes of a given background in a target; missing channels are 0, and alpha is 1.
-Color codes_of(const Background& known, const Target& target) {
+Color codes_of(const Background& known, const TargetImage& target) {
     Color codes;
     for (std::size_t c = 0; c < static_cast<std::size_t>(target.channels); ++c)
         codes.push_back(nearest(target.code, c < known.size() ? known[c] : c == 3 ? 1.0 : 0.0));
     return codes;
 }
 
-std::optional<Masks> by_color(const Pair& pair, const Background& known) {
+std::optional<Masks> by_color(const TargetPair& pair, const Background& known) {
     const auto background = known.empty() ? commonest(*pair.reference, edge_of(*pair.reference))
                                           : std::optional{codes_of(known, *pair.reference)};
     if (!background) return std::nullopt;
@@ -75,7 +75,7 @@ std::optional<Masks> by_color(const Pair& pair, const Background& known) {
     return masks;
 }
 
-bool alpha_varies(const Target& target) {
+bool alpha_varies(const TargetImage& target) {
     bool has_zero = false, has_more = false;
     for (std::size_t i = 0; i < target.pixels(); ++i) (target.value_at(i, 3) > 0 ? has_more : has_zero) = true;
     return has_zero && has_more;
@@ -83,22 +83,22 @@ bool alpha_varies(const Target& target) {
 
 }  // namespace
 
-std::optional<Masks> drawn(std::span<const Pair> pairs, const Background& known) {
-    for (const Pair& pair : pairs)
+std::optional<Masks> drawn(std::span<const TargetPair> pairs, const Background& known) {
+    for (const TargetPair& pair : pairs)
         if (!known.empty() && pair.reference->meaning == Meaning::color && pair.reference->part.empty())
             return by_color(pair, known);
-    for (const Pair& pair : pairs)
+    for (const TargetPair& pair : pairs)
         if (pair.reference->meaning == Meaning::depth && pair.reference->part.empty() &&
             pair.reference->code != Code::integer && pair.candidate->code != Code::integer) {
-            const auto is_drawn = [](const Target& t) {
+            const auto is_drawn = [](const TargetImage& t) {
                 return where(t, [&](std::size_t i) { return t.value_at(i, 0) != 1.0; });
             };
             return Masks{is_drawn(*pair.reference), is_drawn(*pair.candidate)};
         }
-    for (const Pair& pair : pairs) {
+    for (const TargetPair& pair : pairs) {
         if (pair.reference->meaning != Meaning::color || !pair.reference->part.empty()) continue;
         if (pair.channels() == 4 && alpha_varies(*pair.reference)) {
-            const auto is_drawn = [](const Target& t) {
+            const auto is_drawn = [](const TargetImage& t) {
                 return where(t, [&](std::size_t i) { return t.value_at(i, 3) > 0; });
             };
             return Masks{is_drawn(*pair.reference), is_drawn(*pair.candidate)};

@@ -30,7 +30,7 @@ struct Masks {
 using Background = std::vector<double>;
 
 // Empty if the background cannot be determined.
-[[nodiscard]] std::optional<Masks> drawn(std::span<const Pair> pairs, const Background& known = {});
+[[nodiscard]] std::optional<Masks> drawn(std::span<const TargetPair> pairs, const Background& known = {});
 
 enum class CoverageMistake : std::uint8_t { none, moved, edge_rule, snapping, surface };
 [[nodiscard]] std::string_view name(CoverageMistake mistake) noexcept;

@@ -100,10 +100,10 @@ pipeline::Image heat_map_with_legend(const Comparison& comparison) {
 }
 
 pipeline::Image as_shown(const Picture& picture, const std::string& name) {
-    auto best = std::ranges::find(picture.targets, name, &Target::name);
+    auto best = std::ranges::find(picture.targets, name, &TargetImage::name);
     if (name.empty() || best == picture.targets.end())
-        best = std::ranges::min_element(picture.targets, {}, [](const Target& t) { return t.meaning; });
-    const Target& target = *best;
+        best = std::ranges::min_element(picture.targets, {}, [](const TargetImage& t) { return t.meaning; });
+    const TargetImage& target = *best;
     pipeline::Image image{pipeline::Format::rgba8, target.width, target.height};
     const auto code = [&](std::size_t pixel, int c) -> std::uint32_t {
         const double v = target.code == Code::integer ? static_cast<double>(target.at(pixel, c).word % 256) / 255

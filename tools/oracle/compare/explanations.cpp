@@ -13,9 +13,9 @@ namespace strata::oracle {
 namespace {
 
 // The pixel of the reference that the candidate has at x, y.
-using Moved = std::function<std::optional<std::size_t>(const Target& reference, int x, int y)>;
+using Moved = std::function<std::optional<std::size_t>(const TargetImage& reference, int x, int y)>;
 // The candidate's value in channel c.
-using Computed = std::function<double(const Target& reference, std::size_t pixel, int c)>;
+using Computed = std::function<double(const TargetImage& reference, std::size_t pixel, int c)>;
 
 struct PictureChange {
     const char* name;
@@ -25,7 +25,7 @@ struct PictureChange {
     Computed computed{};
 };
 
-bool is_near(Stored candidate, double wanted) noexcept {
+bool is_near(StoredCode candidate, double wanted) noexcept {
     const double found = value(candidate.code, candidate.word), apart = std::abs(found - wanted);
     switch (candidate.code) {
         case Code::unorm8: return apart <= 1.0 / 255;
@@ -41,48 +41,48 @@ bool is_near(Stored candidate, double wanted) noexcept {
 
 // Images that are flipped, or moved by whole pixels.
 std::vector<PictureChange> of_places() {
-    const auto index = [](const Target& t, int x, int y) -> std::optional<std::size_t> {
+    const auto index = [](const TargetImage& t, int x, int y) -> std::optional<std::size_t> {
         if (x < 0 || y < 0 || x >= t.width || y >= t.height) return std::nullopt;
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(t.width) + static_cast<std::size_t>(x);
     };
     std::vector<PictureChange> all;
     const auto add = [&](const char* name, const char* description, auto place) {
         for (const Meaning meaning : {Meaning::color, Meaning::depth})
-            all.push_back({name, description, meaning, [=](const Target& t, int x, int y) {
+            all.push_back({name, description, meaning, [=](const TargetImage& t, int x, int y) {
                                const auto [from_x, from_y] = place(t, x, y);
                                return index(t, from_x, from_y);
                            }});
     };
-    add("flipped_rows", "the reference upside down", [](const Target& t, int x, int y) {
+    add("flipped_rows", "the reference upside down", [](const TargetImage& t, int x, int y) {
         return std::pair{x, t.height - 1 - y};
     });
-    add("flipped_columns", "the reference as in a mirror", [](const Target& t, int x, int y) {
+    add("flipped_columns", "the reference as in a mirror", [](const TargetImage& t, int x, int y) {
         return std::pair{t.width - 1 - x, y};
     });
-    add("turned", "the reference turned by half a circle", [](const Target& t, int x, int y) {
+    add("turned", "the reference turned by half a circle", [](const TargetImage& t, int x, int y) {
         return std::pair{t.width - 1 - x, t.height - 1 - y};
     });
-    add("moved_left", "the reference moved left by one pixel", [](const Target&, int x, int y) {
+    add("moved_left", "the reference moved left by one pixel", [](const TargetImage&, int x, int y) {
         return std::pair{x + 1, y};
     });
-    add("moved_right", "the reference moved right by one pixel", [](const Target&, int x, int y) {
+    add("moved_right", "the reference moved right by one pixel", [](const TargetImage&, int x, int y) {
         return std::pair{x - 1, y};
     });
-    add("moved_up", "the reference moved up by one pixel", [](const Target&, int x, int y) {
+    add("moved_up", "the reference moved up by one pixel", [](const TargetImage&, int x, int y) {
         return std::pair{x, y + 1};
     });
-    add("moved_down", "the reference moved down by one pixel", [](const Target&, int x, int y) {
+    add("moved_down", "the reference moved down by one pixel", [](const TargetImage&, int x, int y) {
         return std::pair{x, y - 1};
     });
     return all;
 }
 
-double alpha_of(const Target& t, std::size_t pixel) { return t.channels == 4 ? t.value_at(pixel, 3) : 1.0; }
+double alpha_of(const TargetImage& t, std::size_t pixel) { return t.channels == 4 ? t.value_at(pixel, 3) : 1.0; }
 
 // The same scene with values stored by another convention.
 std::vector<PictureChange> of_values() {
     const auto color = [](auto of_channel) {
-        return [=](const Target& t, std::size_t pixel, int c) {
+        return [=](const TargetImage& t, std::size_t pixel, int c) {
             const double v = t.value_at(pixel, c);
             return c == 3 ? v : of_channel(t, pixel, v);
         };
@@ -92,12 +92,12 @@ std::vector<PictureChange> of_values() {
          "the reference's colours times their alpha",
          Meaning::color,
          {},
-         color([](const Target& t, std::size_t pixel, double v) { return v * alpha_of(t, pixel); })},
+         color([](const TargetImage& t, std::size_t pixel, double v) { return v * alpha_of(t, pixel); })},
         {"straight",
          "the reference's colours divided by their alpha",
          Meaning::color,
          {},
-         color([](const Target& t, std::size_t pixel, double v) {
+         color([](const TargetImage& t, std::size_t pixel, double v) {
              const double alpha = alpha_of(t, pixel);
              return alpha > 0 ? std::min(v / alpha, t.code == Code::single || t.code == Code::half ? v / alpha : 1.0)
                               : 0.0;
@@ -106,48 +106,48 @@ std::vector<PictureChange> of_values() {
          "the reference's colours encoded to sRGB",
          Meaning::color,
          {},
-         color([](const Target&, std::size_t, double v) { return scenes::encode_srgb(static_cast<float>(v)); })},
+         color([](const TargetImage&, std::size_t, double v) { return scenes::encode_srgb(static_cast<float>(v)); })},
         {"decoded",
          "the reference's colours decoded from sRGB to linear light",
          Meaning::color,
          {},
-         color([](const Target&, std::size_t, double v) { return scenes::decode_srgb(static_cast<float>(v)); })},
+         color([](const TargetImage&, std::size_t, double v) { return scenes::decode_srgb(static_cast<float>(v)); })},
         {"red_for_blue",
          "the reference with red and blue exchanged",
          Meaning::color,
          {},
-         [](const Target& t, std::size_t pixel, int c) {
+         [](const TargetImage& t, std::size_t pixel, int c) {
              return t.value_at(pixel, c < 3 && t.channels >= 3 ? 2 - c : c);
          }},
         {"alpha_lost",
          "the reference with alpha 1 everywhere",
          Meaning::color,
          {},
-         [](const Target& t, std::size_t pixel, int c) { return c == 3 ? 1.0 : t.value_at(pixel, c); }},
+         [](const TargetImage& t, std::size_t pixel, int c) { return c == 3 ? 1.0 : t.value_at(pixel, c); }},
         {"alpha_inverted",
          "the reference with 1 - alpha for alpha",
          Meaning::color,
          {},
-         [](const Target& t, std::size_t pixel, int c) {
+         [](const TargetImage& t, std::size_t pixel, int c) {
              return c == 3 ? 1.0 - t.value_at(pixel, c) : t.value_at(pixel, c);
          }},
         {"depth_reversed",
          "the reference with 1 - z for z",
          Meaning::depth,
          {},
-         [](const Target& t, std::size_t pixel, int c) { return 1.0 - t.value_at(pixel, c); }},
+         [](const TargetImage& t, std::size_t pixel, int c) { return 1.0 - t.value_at(pixel, c); }},
         {"depth_in_16_bits",
          "the reference's depth rounded to 16 bits",
          Meaning::depth,
          {},
-         [](const Target& t, std::size_t pixel, int c) {
+         [](const TargetImage& t, std::size_t pixel, int c) {
              return value(Code::unorm16, nearest(Code::unorm16, t.value_at(pixel, c)));
          }},
     };
 }
 
-bool agrees(const PictureChange& mistake, const Pair& pair, std::size_t pixel) {
-    const Target& r = *pair.reference;
+bool agrees(const PictureChange& mistake, const TargetPair& pair, std::size_t pixel) {
+    const TargetImage& r = *pair.reference;
     std::size_t from = pixel;
     if (mistake.moved) {
         const auto width = static_cast<std::size_t>(r.width);
@@ -156,7 +156,7 @@ bool agrees(const PictureChange& mistake, const Pair& pair, std::size_t pixel) {
         from = *place;
     }
     for (int c = 0; c < pair.channels(); ++c) {
-        const Stored found = pair.candidate->at(pixel, c);
+        const StoredCode found = pair.candidate->at(pixel, c);
         if (mistake.moved ? !is_equal(r.at(from, c), found) : !is_near(found, mistake.computed(r, from, c)))
             return false;
     }
@@ -164,14 +164,14 @@ bool agrees(const PictureChange& mistake, const Pair& pair, std::size_t pixel) {
 }
 
 // Such a pixel gives no evidence of how a value was changed.
-bool is_nearly_equal(const Pair& pair, std::size_t pixel) {
+bool is_nearly_equal(const TargetPair& pair, std::size_t pixel) {
     for (int c = 0; c < pair.channels(); ++c)
         if (!is_near(pair.candidate->at(pixel, c), pair.reference->value_at(pixel, c))) return false;
     return true;
 }
 
 // `evidence`: explained pixels whose difference is more than rounding.
-void count(const PictureChange& mistake, const Pair& pair, Explanation& sum, std::uint64_t& evidence) {
+void count(const PictureChange& mistake, const TargetPair& pair, Explanation& sum, std::uint64_t& evidence) {
     for (std::size_t pixel = 0; pixel < pair.reference->pixels(); ++pixel) {
         const bool agreed = agrees(mistake, pair, pixel), equal = pair.is_equal_at(pixel);
         sum.of += equal ? 0 : 1;
@@ -183,7 +183,7 @@ void count(const PictureChange& mistake, const Pair& pair, Explanation& sum, std
 
 }  // namespace
 
-std::vector<Explanation> explanations(std::span<const Pair> pairs) {
+std::vector<Explanation> explanations(std::span<const TargetPair> pairs) {
     std::vector<PictureChange> mistakes = of_places();
     for (PictureChange& mistake : of_values()) mistakes.push_back(std::move(mistake));
     std::vector<Explanation> found;
@@ -191,7 +191,7 @@ std::vector<Explanation> explanations(std::span<const Pair> pairs) {
     for (const PictureChange& mistake : mistakes) {
         // A movement affects colours and depths alike: one entry sums both.
         if (found.empty() || found.back().mistake != mistake.name) found.push_back({mistake.name, mistake.description});
-        for (const Pair& pair : pairs)
+        for (const TargetPair& pair : pairs)
             if (pair.reference->meaning == mistake.meaning) count(mistake, pair, found.back(), evidence[mistake.name]);
     }
     std::erase_if(found, [&](const Explanation& e) {

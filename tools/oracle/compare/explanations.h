@@ -23,6 +23,6 @@ struct Explanation {
 };
 
 // The mistakes that explain at least half of the differing pixels and more than they contradict, the best first.
-[[nodiscard]] std::vector<Explanation> explanations(std::span<const Pair> pairs);
+[[nodiscard]] std::vector<Explanation> explanations(std::span<const TargetPair> pairs);
 
 }  // namespace strata::oracle

@@ -6,33 +6,33 @@ namespace strata::oracle {
 
 namespace {
 
-struct Layer {
+struct ComparedLayer {
     LayerTarget target;
     std::size_t pixel = 0;
 
     [[nodiscard]] int channels() const { return target.color->channels; }
-    [[nodiscard]] Stored color(int c) const { return target.color->at(pixel, c); }
+    [[nodiscard]] StoredCode color(int c) const { return target.color->at(pixel, c); }
 };
 
-bool has_equal_color(const Layer& a, const Layer& b) {
+bool has_equal_color(const ComparedLayer& a, const ComparedLayer& b) {
     for (int c = 0; c < std::min(a.channels(), b.channels()); ++c)
         if (!is_equal(a.color(c), b.color(c))) return false;
     return true;
 }
 
-bool has_equal_depth(const Layer& a, const Layer& b) {
+bool has_equal_depth(const ComparedLayer& a, const ComparedLayer& b) {
     if (a.target.depth == nullptr || b.target.depth == nullptr) return true;
     return is_equal(a.target.depth->at(a.pixel, 0), b.target.depth->at(b.pixel, 0));
 }
 
-bool is_same(const Layer& a, const Layer& b) { return has_equal_color(a, b) && has_equal_depth(a, b); }
+bool is_same(const ComparedLayer& a, const ComparedLayer& b) { return has_equal_color(a, b) && has_equal_depth(a, b); }
 
-using Stack = std::vector<Layer>;
+using Stack = std::vector<ComparedLayer>;
 
 Stack stack_at(std::span<const LayerTarget> layers, std::size_t pixel) {
     Stack stack;
     for (const LayerTarget& layer : layers) {
-        const Target& color = *layer.color;
+        const TargetImage& color = *layer.color;
         bool is_there = false;
         for (int c = color.channels == 4 ? 3 : 0; c < color.channels; ++c) is_there |= color.value_at(pixel, c) != 0.0;
         if (is_there) stack.push_back({layer, pixel});
@@ -44,7 +44,7 @@ Stack stack_at(std::span<const LayerTarget> layers, std::size_t pixel) {
 bool is_part_of(const Stack& part, const Stack& whole, Stack& rest) {
     std::size_t next = 0;
     rest.clear();
-    for (const Layer& layer : whole) {
+    for (const ComparedLayer& layer : whole) {
         if (next < part.size() && is_same(part[next], layer))
             ++next;
         else
@@ -53,14 +53,14 @@ bool is_part_of(const Stack& part, const Stack& whole, Stack& rest) {
     return next == part.size();
 }
 
-bool has(const Stack& stack, const Layer& layer) {
-    return std::ranges::any_of(stack, [&](const Layer& other) { return is_same(layer, other); });
+bool has(const Stack& stack, const ComparedLayer& layer) {
+    return std::ranges::any_of(stack, [&](const ComparedLayer& other) { return is_same(layer, other); });
 }
 
 // MAX of each channel, as blending with MAX merges two fragments; only layers stored in the same form have one.
-bool is_greatest_of(const Layer& merged, const Layer& a, const Layer& b) {
+bool is_greatest_of(const ComparedLayer& merged, const ComparedLayer& a, const ComparedLayer& b) {
     for (int c = 0; c < std::min({merged.channels(), a.channels(), b.channels()}); ++c) {
-        const Stored one = a.color(c), other = b.color(c);
+        const StoredCode one = a.color(c), other = b.color(c);
         if (!is_equal(value(one.code, one.word) < value(other.code, other.word) ? other : one, merged.color(c)))
             return false;
     }
@@ -82,7 +82,8 @@ bool is_merged(const Stack& reference, const Stack& candidate) {
 bool is_doubled(const Stack& reference, const Stack& candidate) {
     for (std::size_t i = 0; i < candidate.size(); ++i) {
         const auto times = [&](const Stack& stack) {
-            return std::ranges::count_if(stack, [&](const Layer& other) { return is_same(candidate[i], other); });
+            return std::ranges::count_if(stack,
+                                         [&](const ComparedLayer& other) { return is_same(candidate[i], other); });
         };
         if (times(candidate) > std::max<std::ptrdiff_t>(times(reference), 1) && has(reference, candidate[i]))
             return true;
@@ -99,10 +100,10 @@ bool is_reordered(const Stack& reference, const Stack& candidate) {
 
 std::vector<LayerTarget> layers_of(const Picture& picture) {
     std::vector<LayerTarget> layers;
-    for (const Target& target : picture.targets) {
+    for (const TargetImage& target : picture.targets) {
         if (target.part.empty() || target.meaning != Meaning::color) continue;
         LayerTarget layer{&target, nullptr};
-        for (const Target& other : picture.targets)
+        for (const TargetImage& other : picture.targets)
             if (other.part == target.part && other.meaning == Meaning::depth) layer.depth = &other;
         layers.push_back(layer);
     }

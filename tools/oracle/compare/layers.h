@@ -14,8 +14,8 @@
 namespace strata::oracle {
 
 struct LayerTarget {
-    const Target* color = nullptr;
-    const Target* depth = nullptr;  // null if the part has none
+    const TargetImage* color = nullptr;
+    const TargetImage* depth = nullptr;  // null if the part has none
 };
 
 // Empty for an image without named parts.

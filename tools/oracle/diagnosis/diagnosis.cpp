@@ -12,12 +12,12 @@ namespace strata::oracle {
 namespace {
 
 bool is_same(const Picture& a, const Picture& b) {
-    return std::ranges::equal(a.targets, b.targets, {}, &Target::codes, &Target::codes);
+    return std::ranges::equal(a.targets, b.targets, {}, &TargetImage::codes, &TargetImage::codes);
 }
 
 // True if all pixels of an image are equal: nothing is drawn in it.
 bool is_blank(const Picture& picture) {
-    return std::ranges::all_of(picture.targets, [](const Target& t) {
+    return std::ranges::all_of(picture.targets, [](const TargetImage& t) {
         const auto channels = static_cast<std::ptrdiff_t>(t.channels);
         return std::equal(t.codes.begin() + channels, t.codes.end(), t.codes.begin());
     });

@@ -9,7 +9,7 @@ namespace strata::oracle {
 namespace {
 
 bool is_one_picture(const Picture& a, const Picture& b) {
-    return std::ranges::equal(a.targets, b.targets, {}, &Target::codes, &Target::codes);
+    return std::ranges::equal(a.targets, b.targets, {}, &TargetImage::codes, &TargetImage::codes);
 }
 
 bool distinguishes(const SuiteScene& scene, std::span<const Mistake* const> mistakes) {

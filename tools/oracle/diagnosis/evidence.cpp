@@ -13,7 +13,7 @@ namespace strata::oracle {
 Agreement agreement(const Picture& picture, const Picture& candidate, const Tolerances& tolerances, Forgiven beside) {
     const Pairing pairing = pair_targets(picture, candidate);
     Agreement all(pairing.pairs[0].reference->pixels(), true);
-    for (const Pair& pair : pairing.pairs) {
+    for (const TargetPair& pair : pairing.pairs) {
         const bool is_depth = pair.reference->meaning == Meaning::depth;
         const bool has_one_code =
             pair.reference->code == pair.candidate->code && pair.reference->channels == pair.candidate->channels;
@@ -21,7 +21,7 @@ Agreement agreement(const Picture& picture, const Picture& candidate, const Tole
         const std::uint32_t forgiven = is_depth ? tolerances.depth_codes : tolerances.color_codes + more;
         const auto channels = static_cast<std::size_t>(pair.reference->channels);
         const auto has_equal_words = [&](std::size_t i) {
-            const auto at = [&](const Target& t) {
+            const auto at = [&](const TargetImage& t) {
                 return t.codes.begin() + static_cast<std::ptrdiff_t>(i * channels);
             };
             return has_one_code &&

@@ -30,7 +30,7 @@ std::vector<pipeline::Alteration> alterations_of(std::span<const AlteredRun> exp
     return all;
 }
 
-using Targets = std::vector<Target>;
+using Targets = std::vector<TargetImage>;
 
 // The published target with the changes to the finished image applied, because a port may make them in its last pass.
 // It keeps its name.
@@ -149,7 +149,8 @@ std::optional<PassAgreement> MistakeRenderer::compare_passes(std::span<const Mis
         PassEvidence evidence{candidate};
         std::optional<PassReport> last;
         const auto add = [&](PassReport&& pass) {
-            if (last) evidence.add(*last, pass.kind == PassKind::published ? finished(*last, pass, e) : Targets{});
+            if (last)
+                evidence.add(*last, pass.kind == ReportedPassKind::published ? finished(*last, pass, e) : Targets{});
             last = std::move(pass);
         };
         passes({*e.list, e.view, e.profile, e.options, e.sampling}, *e.algorithm, add, alterations);
@@ -164,7 +165,7 @@ std::optional<Picture> MistakeRenderer::with(const Mistake& mistake) const {
 
 pipeline::Image color_image(const Picture& picture) {
     using pipeline::Format;
-    const Target& colors = picture.targets[0];
+    const TargetImage& colors = picture.targets[0];
     const Format format = colors.code == Code::unorm8 ? Format::rgba8
                           : colors.code == Code::half ? Format::rgba16f
                                                       : Format::rgba32f;

@@ -18,7 +18,7 @@ bool afterwards(AlteredRun& e, std::function<void(Picture&)> change) {
 template <class PlaceOf>
 bool from_elsewhere(AlteredRun& e, PlaceOf place) {
     return afterwards(e, [=](Picture& picture) {
-        for (Target& t : picture.targets) {
+        for (TargetImage& t : picture.targets) {
             const std::vector<std::uint32_t> old = t.codes;
             const auto channels = static_cast<std::size_t>(t.channels);
             for (int y = 0; y < t.height; ++y)
@@ -41,7 +41,7 @@ bool from_elsewhere(AlteredRun& e, PlaceOf place) {
 template <class Value>
 bool with_colors(AlteredRun& e, Value value) {
     return afterwards(e, [=](Picture& picture) {
-        for (Target& t : picture.targets) {
+        for (TargetImage& t : picture.targets) {
             if (t.meaning != Meaning::color) continue;
             const auto changed = [&](std::uint32_t word) {
                 return nearest(t.code, value(oracle::value(t.code, word)));
@@ -91,7 +91,7 @@ const Mistake picture_mistakes[] = {
     {"red_for_blue", "red and blue exchanged", ChangedPart::picture,
      [](AlteredRun& e) {
          return afterwards(e, [](Picture& picture) {
-             for (Target& t : picture.targets)
+             for (TargetImage& t : picture.targets)
                  for (std::size_t i = 0; t.channels >= 3 && i < t.pixels(); ++i) {
                      std::uint32_t* const texel = &t.codes[i * static_cast<std::size_t>(t.channels)];
                      std::swap(texel[0], texel[2]);
@@ -101,7 +101,7 @@ const Mistake picture_mistakes[] = {
     {"alpha_zero", "alpha 0 everywhere: the target was cleared to it and its alpha never written", ChangedPart::picture,
      [](AlteredRun& e) {
          return afterwards(e, [](Picture& picture) {
-             for (Target& t : picture.targets)
+             for (TargetImage& t : picture.targets)
                  for (std::size_t i = 0; t.channels == 4 && i < t.pixels(); ++i) t.codes[4 * i + 3] = 0;
          });
      }},

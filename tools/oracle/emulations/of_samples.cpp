@@ -47,18 +47,18 @@ bool covers_by_alpha_rounded(AlteredRun& e, ShareRounding rounding) {
 
 // The mean of decoded sRGB values, encoded; alpha is linear.
 pipeline::Image mean_of_decoded(const std::vector<pipeline::Image>& samples) {
-    std::vector<Target> targets;
+    std::vector<TargetImage> targets;
     for (const pipeline::Image& sample : samples) targets.push_back(as_target(sample, ""));
     pipeline::Image mean = samples[0];
     const auto channels = static_cast<std::size_t>(mean.channels());
     for (std::size_t i = 0; i < mean.codes.size(); ++i) {
         const bool is_alpha = i % channels == 3;
-        const auto decoded = [&](const Target& target) {
+        const auto decoded = [&](const TargetImage& target) {
             const double v = value(target.code, target.codes[i]);
             return is_alpha ? v : double{scenes::decode_srgb(static_cast<float>(v))};
         };
         double sum = 0;
-        for (const Target& target : targets) sum += decoded(target);
+        for (const TargetImage& target : targets) sum += decoded(target);
         const double linear = sum / static_cast<double>(samples.size());
         mean.codes[i] =
             nearest(targets[0].code, is_alpha ? linear : double{scenes::encode_srgb(static_cast<float>(linear))});

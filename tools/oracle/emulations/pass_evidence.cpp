@@ -26,10 +26,10 @@ std::uint32_t rounding_of(Code code) noexcept {
 }
 
 // One target, or one for each sample, with the names that pack_pictures.h gives them.
-std::vector<Target> targets_of(const NamedImage& named) {
+std::vector<TargetImage> targets_of(const NamedImage& named) {
     const pipeline::Image& image = named.image;
     if (image.samples == 1) return {as_target(image, named.name)};
-    std::vector<Target> targets;
+    std::vector<TargetImage> targets;
     for (int sample = 0; sample < image.samples; ++sample) {
         pipeline::Image one{image.format, image.width, image.height};
         for (int y = 0; y < image.height; ++y)
@@ -41,12 +41,12 @@ std::vector<Target> targets_of(const NamedImage& named) {
     return targets;
 }
 
-bool has_one_shape(const Target& a, const Target& b) {
+bool has_one_shape(const TargetImage& a, const TargetImage& b) {
     return a.width == b.width && a.height == b.height && a.channels == b.channels;
 }
 
 // The largest distance of two codes.
-std::uint32_t greatest_distance(const Target& a, const Target& b) {
+std::uint32_t greatest_distance(const TargetImage& a, const TargetImage& b) {
     if (a.code == b.code && a.codes == b.codes) return 0;
     std::uint32_t greatest = 0;
     for (std::size_t i = 0; i < a.codes.size(); ++i)
@@ -55,7 +55,7 @@ std::uint32_t greatest_distance(const Target& a, const Target& b) {
 }
 
 // The number of pixels with a channel that differs by more than `forgiven`; for unequal shapes, all.
-std::uint64_t far_pixels(const Target& a, const Target& b, std::uint32_t forgiven) {
+std::uint64_t far_pixels(const TargetImage& a, const TargetImage& b, std::uint32_t forgiven) {
     if (!has_one_shape(a, b)) return a.pixels();
     const auto channels = static_cast<std::size_t>(a.channels);
     std::uint64_t far = 0;
@@ -83,20 +83,20 @@ bool explains_origin(const PassAgreement& machine, const PassAgreement& right) {
            is_later(machine.first_far, right.first_far);
 }
 
-void PassEvidence::add(const PassReport& pass, std::span<const Target> instead) {
-    if (pass.kind == PassKind::published) return;
+void PassEvidence::add(const PassReport& pass, std::span<const TargetImage> instead) {
+    if (pass.kind == ReportedPassKind::published) return;
     const auto other = std::ranges::find(candidate_, pass.number, &PassPicture::number);
     if (other == candidate_.end()) return;
-    std::vector<Target> targets;
+    std::vector<TargetImage> targets;
     for (const NamedImage& image : pass.targets) std::ranges::move(targets_of(image), std::back_inserter(targets));
-    for (const Target& ours : targets) {
+    for (const TargetImage& ours : targets) {
         const auto& all = other->targets.targets;
-        const auto theirs = std::ranges::find(all, ours.name, &Target::name);
+        const auto theirs = std::ranges::find(all, ours.name, &TargetImage::name);
         if (theirs == all.end()) continue;
         ++found_.targets;
         const bool fits = has_one_shape(ours, *theirs);
         std::uint32_t apart = fits ? greatest_distance(ours, *theirs) : 0;
-        const auto other_form = std::ranges::find(instead, ours.name, &Target::name);
+        const auto other_form = std::ranges::find(instead, ours.name, &TargetImage::name);
         if (fits && apart > 0 && other_form != instead.end())
             apart = std::min(apart, greatest_distance(*other_form, *theirs));
         if (fits && apart == 0) {

@@ -13,7 +13,7 @@
 
 namespace strata::oracle {
 
-struct Target;  // tools/oracle/picture/picture.h
+struct TargetImage;  // tools/oracle/picture/picture.h
 
 struct PassPicture;  // tools/oracle/pack/pack_pictures.h
 struct PassReport;   // tools/oracle/passes/passes.h
@@ -37,7 +37,7 @@ class PassEvidence {
     // `candidate` must outlive this.
     explicit PassEvidence(const std::vector<PassPicture>& candidate) : candidate_{candidate} {}
     // A target that is not the candidate's may be replaced by the one of `instead` with its name.
-    void add(const PassReport& pass, std::span<const Target> instead = {});
+    void add(const PassReport& pass, std::span<const TargetImage> instead = {});
     [[nodiscard]] const PassAgreement& found() const noexcept { return found_; }
 
   private:

@@ -198,7 +198,7 @@ class Recorder {
                 if (e.is_geometry && e.state.needs.reference) line.reference_code = e.batch.reference_code[i];
                 for (std::size_t k = 0; k < e.state.color.size(); ++k) {
                     if (!e.state.color[k].exists()) continue;
-                    Output output{.target = names_.of(e.state.color[k]), .blend = e.state.blend[k]};
+                    ProgramOutput output{.target = names_.of(e.state.color[k]), .blend = e.state.blend[k]};
                     for (std::size_t c = 0; c < 4; ++c) output.color[c] = e.out.color[k][c][i];
                     line.outputs.push_back(std::move(output));
                 }

@@ -53,7 +53,7 @@ struct TargetValues {
 };
 
 // The output of a program for one colour target.
-struct Output {
+struct ProgramOutput {
     std::string target{};
     std::array<float, 4> color{};
     pipeline::Blend blend{};
@@ -78,7 +78,7 @@ struct Line {
     std::uint32_t depth_code = 0;                   // the depth that is tested and stored
     std::optional<std::uint32_t> reference_code{};  // the depth that the program compares, if it is another one
     std::vector<TargetValues> reads{};
-    std::vector<Output> outputs{};
+    std::vector<ProgramOutput> outputs{};
     // For queries.
     std::uint64_t count = 0;
     bool goes_on = false;

@@ -80,7 +80,7 @@ void add_shaded(const Line& line, ordered_json& document) {
     document["tests"] = json_of_tests(line);
     document["reads"] = all_held(line.reads);
     document["outputs"] = ordered_json::array();
-    for (const Output& output : line.outputs)
+    for (const ProgramOutput& output : line.outputs)
         document["outputs"].push_back(
             {{"target", output.target}, {"color", bits(output.color)}, {"blend", json_of_blend(output.blend)}});
 }

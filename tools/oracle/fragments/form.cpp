@@ -33,9 +33,9 @@ std::size_t wrong_of(const SceneFragments& scene, const Formed& formed) {
 
 }  // namespace
 
-std::optional<Target> in_codes(const Target& target) {
+std::optional<TargetImage> in_codes(const TargetImage& target) {
     if (target.code != Code::half && target.code != Code::single) return std::nullopt;
-    Target made = target;
+    TargetImage made = target;
     made.code = Code::unorm8;
     for (std::size_t i = 0; i < target.codes.size(); ++i) {
         made.codes[i] = nearest(Code::unorm8, value(target.code, target.codes[i]));
@@ -44,9 +44,9 @@ std::optional<Target> in_codes(const Target& target) {
     return made;
 }
 
-Formed formed(const SceneFragments& scene, const Target& stored, bool is_stated) {
-    const std::optional<Target> codes = in_codes(stored);
-    const Target& target = codes ? *codes : stored;
+Formed formed(const SceneFragments& scene, const TargetImage& stored, bool is_stated) {
+    const std::optional<TargetImage> codes = in_codes(stored);
+    const TargetImage& target = codes ? *codes : stored;
     Formed as_it_is{.target = target};
     if (target.alpha_form != AlphaForm::straight) return as_it_is;
     auto multiplied = premultiplied(target);

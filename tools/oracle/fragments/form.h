@@ -14,7 +14,7 @@
 namespace strata::oracle::verdict {
 
 struct Formed {
-    Target target{};  // premultiplied
+    TargetImage target{};  // premultiplied
     ChannelUse use{};
     bool is_chosen = false;  // alpha makes a difference, and no option states the form
     [[nodiscard]] Colors colors() const { return Colors{target, use}; }
@@ -23,9 +23,9 @@ struct Formed {
 
 // The target with codes of 8 bits if its floats are all values of such codes: a target of 8 bits that a file of floats
 // holds. Empty otherwise.
-[[nodiscard]] std::optional<Target> in_codes(const Target& target);
+[[nodiscard]] std::optional<TargetImage> in_codes(const TargetImage& target);
 
 // `is_stated`: an option states the target's form; no other form is tried.
-[[nodiscard]] Formed formed(const SceneFragments& scene, const Target& target, bool is_stated);
+[[nodiscard]] Formed formed(const SceneFragments& scene, const TargetImage& target, bool is_stated);
 
 }  // namespace strata::oracle::verdict

@@ -79,7 +79,7 @@ class SceneFragments {
 
     // Sets the colour that the candidate has where nothing is drawn, if that is one colour and not the background's.
     void set_seen_background(const std::optional<Rgba>& color) { setting_.seen_background = color; }
-    void set_stored(Stored stored) { setting_.stored = stored; }
+    void set_stored(ColorStorage stored) { setting_.stored = stored; }
     // Shows fragments at the greatest depth where there is no opaque surface: a port without a depth test composites
     // those that interpolation moves beyond the far plane, while LESS against the cleared depth fails.
     void show_at_far_plane(bool is_shown) { shows_at_far_plane_ = is_shown; }

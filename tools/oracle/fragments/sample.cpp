@@ -8,7 +8,7 @@
 
 namespace strata::oracle::verdict {
 
-Colors::Colors(const Target& target, const ChannelUse& use) : target_{&target}, use_{use} {}
+Colors::Colors(const TargetImage& target, const ChannelUse& use) : target_{&target}, use_{use} {}
 
 double Colors::value(int x, int y, int channel) const noexcept {
     const std::size_t pixel =

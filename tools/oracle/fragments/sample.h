@@ -21,8 +21,8 @@ struct ChannelUse {
 // The colours of a candidate, row by row from the top; grey is used for all three colour channels.
 class Colors {
   public:
-    explicit Colors(const Target& target, const ChannelUse& use = {});
-    [[nodiscard]] const Target& target() const noexcept { return *target_; }
+    explicit Colors(const TargetImage& target, const ChannelUse& use = {});
+    [[nodiscard]] const TargetImage& target() const noexcept { return *target_; }
     [[nodiscard]] int width() const noexcept { return target_->width; }
     [[nodiscard]] int height() const noexcept { return target_->height; }
     [[nodiscard]] Code code() const noexcept { return target_->code; }
@@ -38,7 +38,7 @@ class Colors {
   private:
     [[nodiscard]] double value(int x, int y, int channel) const noexcept;
 
-    const Target* target_;
+    const TargetImage* target_;
     ChannelUse use_;
 };
 

@@ -52,17 +52,17 @@ inline constexpr std::uint32_t triangle_point_count = 4;
 
 // What the numbers of a picture are: values of the frame; those of a linear frame, encoded for sRGB when it was saved;
 // codes of an sRGB target, which decodes and encodes at every blend.
-enum class Stored : std::uint8_t { as_they_are, encoded, srgb_target };
+enum class ColorStorage : std::uint8_t { as_they_are, encoded, srgb_target };
 
 struct Setting {
-    Stored stored = Stored::as_they_are;
+    ColorStorage stored = ColorStorage::as_they_are;
     Rgba cleared{0, 0, 0, 1};               // the colour where nothing is drawn
     std::optional<Rgba> seen_background{};  // the candidate's colour there, if it is a single other colour
     // By InstanceOrder, then by instance: its rank in drawing order. Empty: as listed.
     std::array<std::vector<std::uint32_t>, instance_order_count> rank{};
     // By TrianglePoint, then by submission index: a number that is larger for nearer triangles. Empty: not known.
     std::array<std::vector<float>, triangle_point_count> nearness{};
-    std::shared_ptr<Work> work = std::make_shared<Work>();  // the steps of the search on this scene
+    std::shared_ptr<WorkCounter> work = std::make_shared<WorkCounter>();  // the steps of the search on this scene
 };
 
 // Sets `nearness` for the drawn triangles; `instance_of`: the instance of each triangle in submission order.

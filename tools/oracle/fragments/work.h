@@ -17,7 +17,7 @@
 
 namespace strata::oracle::verdict {
 
-class Work {
+class WorkCounter {
   public:
     void add(std::uint64_t steps) {
         const std::uint64_t done = done_.fetch_add(steps, std::memory_order_relaxed) + steps;
@@ -76,7 +76,7 @@ class Work {
 class Steps {
   public:
     // `share`: the limit of this part.
-    explicit Steps(Work& all, std::uint64_t share = ~std::uint64_t{0}) noexcept : all_{&all}, share_{share} {}
+    explicit Steps(WorkCounter& all, std::uint64_t share = ~std::uint64_t{0}) noexcept : all_{&all}, share_{share} {}
     Steps(const Steps&) = delete;
     Steps& operator=(const Steps&) = delete;
     ~Steps() { all_->add(count_); }
@@ -93,7 +93,7 @@ class Steps {
   private:
     static constexpr std::uint64_t few = 4;  // extra steps per list, for its background and its result
 
-    Work* all_;
+    WorkCounter* all_;
     std::uint64_t share_, count_ = 0;
 };
 

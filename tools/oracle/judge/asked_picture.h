@@ -10,7 +10,7 @@ struct Algorithm;
 namespace strata::oracle {
 
 struct AskedPicture {
-    const Target& colors;
+    const TargetImage& colors;
     bool is_form_stated = false;                    // the caller states whether colours are straight or premultiplied
     bool has_alpha = true;                          // false: alpha is not compared
     const peeling::Algorithm* algorithm = nullptr;  // that the port runs; null: not known

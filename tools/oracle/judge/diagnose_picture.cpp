@@ -29,7 +29,7 @@ bool has_layers(const RunInput& input) {
 }
 
 // What the layers say of a picture.
-Judgement layers_of(const DiagnosisQuestion& question, const Target& colors) {
+Judgement layers_of(const DiagnosisQuestion& question, const TargetImage& colors) {
     return judge(question.input,
                  {colors, question.is_form_stated, question.tolerances.channels == ColorChannels::all,
                   question.algorithm.exact ? &question.algorithm : nullptr, question.camera, question.layers},
@@ -46,7 +46,7 @@ std::string own_structure(const DiagnosisQuestion& question, const Judgement& la
 }
 
 void ask_layers(const DiagnosisQuestion& question, const Picture& right, Diagnosis& found) {
-    const auto colors = std::ranges::find(question.candidate.targets, Meaning::color, &Target::meaning);
+    const auto colors = std::ranges::find(question.candidate.targets, Meaning::color, &TargetImage::meaning);
     if (found.is_blank || question.passes != nullptr || colors == question.candidate.targets.end() ||
         !has_layers(question.input) || is_decided(question, found))
         return;

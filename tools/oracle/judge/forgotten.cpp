@@ -118,20 +118,20 @@ Color in_srgb(const Color& color, pipeline::ColorSpace space) {
 }
 
 // Another way to draw the scene.
-struct Way {
+struct SceneVariant {
     std::string words;  // "--samples 4"
     std::optional<Color> background{};
     int samples = 1;
     double right = 0, up = 0;  // moved by pixels
 };
 
-std::vector<Way> ways(const RunInput& input, const std::optional<SeenBackground>& seen) {
-    std::vector<Way> all;
+std::vector<SceneVariant> ways(const RunInput& input, const std::optional<SeenBackground>& seen) {
+    std::vector<SceneVariant> all;
     for (const bool is_seen : {false, true}) {
         if (is_seen && !seen) continue;
         const std::string words = is_seen ? "--background " + words_of(in_srgb(seen->color, input.space)) : "";
         const auto add = [&](const std::string& more, int samples, double right, double up) {
-            Way way{words + (words.empty() || more.empty() ? "" : " ") + more, {}, samples, right, up};
+            SceneVariant way{words + (words.empty() || more.empty() ? "" : " ") + more, {}, samples, right, up};
             if (is_seen) way.background = seen->color;
             all.push_back(std::move(way));
         };
@@ -146,14 +146,14 @@ std::vector<Way> ways(const RunInput& input, const std::optional<SeenBackground>
     return all;
 }
 
-std::string moved(const Way& way) {
+std::string moved(const SceneVariant& way) {
     std::string text;
     if (way.right != 0) text += way.right < 0 ? "left" : "right";
     if (way.up != 0) text += fmt::format("{}{}", text.empty() ? "" : " and ", way.up < 0 ? "down" : "up");
     return text.empty() ? "" : fmt::format("everything is half a pixel further {}", text);
 }
 
-pipeline::View moved_view(const RunInput& input, const Way& way) {
+pipeline::View moved_view(const RunInput& input, const SceneVariant& way) {
     pipeline::View view = input.view;
     const double x = 2 * way.right / input.options.width, y = 2 * way.up / input.options.height;
     for (int c = 0; c < 4; ++c) {
@@ -163,7 +163,7 @@ pipeline::View moved_view(const RunInput& input, const Way& way) {
     return view;
 }
 
-bool is_right_so(const RunInput& input, const Way& way, const Colors& picture,
+bool is_right_so(const RunInput& input, const SceneVariant& way, const Colors& picture,
                  const std::vector<std::uint32_t>& wrong) {
     const pipeline::View view = moved_view(input, way);
     RunInput so{input.list, view, input.profile, input.options, input.sampling, input.space};
@@ -238,8 +238,8 @@ std::vector<std::string> forgotten_options(const RunInput& input, const Colors& 
     const Expected right = expected(scene);
     const Color given = given_background(input);
     const auto seen = seen_background(right, picture, given);
-    const std::vector<Way> tried = ways(input, seen);
-    for (const Way& way : tried) {
+    const std::vector<SceneVariant> tried = ways(input, seen);
+    for (const SceneVariant& way : tried) {
         if (progress) progress(static_cast<double>(&way - tried.data()) / static_cast<double>(tried.size()));
         if (!is_right_so(input, way, picture, wrong_pixels)) continue;
         const std::string where = moved(way);

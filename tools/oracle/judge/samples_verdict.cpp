@@ -40,7 +40,7 @@ verdict::Samples samples_of(const RunInput& input, const OtherRules& rules,
 
 // The ways to read the picture's colours.
 std::vector<Formed> forms_of(const AskedPicture& asked, pipeline::ColorSpace space) {
-    const std::optional<Target> codes = verdict::in_codes(asked.colors);
+    const std::optional<TargetImage> codes = verdict::in_codes(asked.colors);
     const AskedPicture picture{codes ? *codes : asked.colors, asked.is_form_stated, asked.has_alpha};
     std::vector<Formed> forms;
     const bool may_be_straight = picture.colors.alpha_form == AlphaForm::straight;

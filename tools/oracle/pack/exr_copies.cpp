@@ -49,17 +49,17 @@ void write_copies_of(const json& result, const std::string& folder, pipeline::Co
 }
 
 // The target of an EXR file that corresponds to `expected`. In a pass the parts have the names of the targets.
-const Target* find_copy(const Picture& copy, const Target& expected, bool is_pass) {
-    const auto found = std::ranges::find_if(copy.targets, [&](const Target& t) {
+const TargetImage* find_copy(const Picture& copy, const TargetImage& expected, bool is_pass) {
+    const auto found = std::ranges::find_if(copy.targets, [&](const TargetImage& t) {
         return is_pass ? t.part == expected.name : t.part == expected.part && t.name == expected.name;
     });
     return found == copy.targets.end() ? nullptr : &*found;
 }
 
 std::string difference(const Picture& expected, const Picture& copy, bool is_pass) {
-    for (const Target& target : expected.targets) {
+    for (const TargetImage& target : expected.targets) {
         const std::string name = target.part.empty() ? target.name : target.part + "." + target.name;
-        const Target* found = find_copy(copy, target, is_pass);
+        const TargetImage* found = find_copy(copy, target, is_pass);
         if (found == nullptr) return fmt::format("has no part {}", name);
         if (found->codes != target.codes) return fmt::format("{}: its codes are not those of the array", name);
     }

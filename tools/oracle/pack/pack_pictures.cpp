@@ -37,7 +37,7 @@ using Finder = std::function<std::optional<std::string>(const ManifestValue& tar
 // Adds the samples of a target, each as its own target. `is_own`: the array belongs to the pack and must have the
 // target's format.
 void add_samples(const NumberArray& array, const ManifestValue& described, const std::string& file, bool is_own,
-                 Target target, std::vector<Target>& to) {
+                 TargetImage target, std::vector<TargetImage>& to) {
     const Format format = format_named(described.text("format"), file);
     const auto samples = static_cast<std::size_t>(described.whole("samples", 1, 1, most_samples_a_pixel));
     const auto& shape = array.shape;

@@ -34,11 +34,11 @@ void add_passes(const RunInput& input, const peeling::Algorithm& algorithm, Targ
     int geometry = 0, full_screen = 0;
     ordered_json list = ordered_json::array(), picture;
     passes(input, algorithm, [&](PassReport&& pass) {
-        if (pass.kind == PassKind::published) {
+        if (pass.kind == ReportedPassKind::published) {
             picture = targets.write("", "picture", pass.targets.at(0).image);
             return;
         }
-        ++(pass.kind == PassKind::geometry ? geometry : full_screen);
+        ++(pass.kind == ReportedPassKind::geometry ? geometry : full_screen);
         list.push_back(pass_json(pass, targets));
     });
     object["geometry_passes"] = geometry;

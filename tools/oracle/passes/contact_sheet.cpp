@@ -87,8 +87,8 @@ void fill(Image& image, int x0, int y0, int x1, int y1, std::uint32_t grey) {
 }  // namespace
 
 void ContactSheet::add(const PassReport& pass) {
-    add(fmt::format("{} {}", pass.number, pass.kind == PassKind::full_screen ? "quad" : name(pass.kind)), pass.targets,
-        pass.writes);
+    add(fmt::format("{} {}", pass.number, pass.kind == ReportedPassKind::full_screen ? "quad" : name(pass.kind)),
+        pass.targets, pass.writes);
 }
 
 void ContactSheet::add(const std::string& caption, const std::vector<NamedImage>& targets,

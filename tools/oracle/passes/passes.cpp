@@ -18,7 +18,9 @@ using pipeline::Region;
 using pipeline::Step;
 using pipeline::StepEvent;
 
-std::string_view name(PassKind kind) noexcept { return enum_names<PassKind>[static_cast<std::size_t>(kind)]; }
+std::string_view name(ReportedPassKind kind) noexcept {
+    return enum_names<ReportedPassKind>[static_cast<std::size_t>(kind)];
+}
 
 void TargetNames::add(pipeline::Target target, std::string_view name) {
     const auto id = static_cast<std::size_t>(target.id);
@@ -56,9 +58,9 @@ namespace {
 
 // Collects the passes of all samples. The samples make the same steps, and all have made a step before any makes the
 // next; so what a step is, is taken from sample 0, and a pass is complete when every sample has shown its targets.
-class Collector {
+class PassCollector {
   public:
-    Collector(const std::function<void(PassReport&&)>& on_pass, const peeling::AsShown& shown, int samples)
+    PassCollector(const std::function<void(PassReport&&)>& on_pass, const peeling::AsShown& shown, int samples)
         : on_pass_{on_pass}, shown_{shown}, samples_{samples} {}
 
     void name(int sample, pipeline::Target target, std::string_view name) {
@@ -80,8 +82,8 @@ class Collector {
             case Step::query:
                 if (sample == 0 && ended_) ended_->queries.push_back({event.passed, event.answer});
                 break;
-            case Step::geometry: add(sample, region, event, PassKind::geometry); break;
-            case Step::full_screen: add(sample, region, event, PassKind::full_screen); break;
+            case Step::geometry: add(sample, region, event, ReportedPassKind::geometry); break;
+            case Step::full_screen: add(sample, region, event, ReportedPassKind::full_screen); break;
             case Step::publish:
                 if (sample == 0) next_.iteration = event.iteration;
                 break;
@@ -90,7 +92,7 @@ class Collector {
 
     void publish(pipeline::Image picture) {
         flush();
-        next_.kind = PassKind::published;
+        next_.kind = ReportedPassKind::published;
         next_.number = number_;
         next_.targets.push_back({"picture", std::move(picture)});
         on_pass_(std::move(next_));
@@ -103,7 +105,7 @@ class Collector {
     }
 
     // Adds one sample's part of a pass.
-    void add(int sample, const Region& region, const StepEvent& event, PassKind kind) {
+    void add(int sample, const Region& region, const StepEvent& event, ReportedPassKind kind) {
         if (shown_samples_ == 0) {
             flush();
             for (int id = 0; id < region.targets().count(); ++id) next_.targets.emplace_back();
@@ -134,7 +136,7 @@ class Collector {
         if (target.exists()) to.push_back(names_.of(target));
     }
 
-    void complete(const StepEvent& event, PassKind kind) {
+    void complete(const StepEvent& event, ReportedPassKind kind) {
         next_.kind = kind;
         next_.number = number_++;
         next_.iteration = event.iteration;
@@ -170,7 +172,7 @@ class Collector {
 void passes(const RunInput& input, const peeling::Algorithm& algorithm,
             const std::function<void(PassReport&&)>& on_pass, std::span<const pipeline::Alteration> alterations) {
     const int samples = input.sampling.samples;
-    Collector collector{on_pass, {input.options, input.profile}, samples};
+    PassCollector collector{on_pass, {input.options, input.profile}, samples};
     std::vector<pipeline::Observer> observers;
     for (int sample = 0; sample < samples; ++sample)
         observers.push_back(

@@ -24,8 +24,8 @@
 
 namespace strata::oracle {
 
-enum class PassKind : std::uint8_t { geometry, full_screen, published };
-[[nodiscard]] std::string_view name(PassKind kind) noexcept;
+enum class ReportedPassKind : std::uint8_t { geometry, full_screen, published };
+[[nodiscard]] std::string_view name(ReportedPassKind kind) noexcept;
 
 struct Query {
     std::uint64_t count = 0;
@@ -34,7 +34,7 @@ struct Query {
 
 struct PassReport {
     int number = 0;  // from 0
-    PassKind kind{};
+    ReportedPassKind kind{};
     int iteration = 0;                  // 0: before the first iteration
     std::vector<std::string> before{};  // "clear front", "copy opaque_depth to nearest"
     std::vector<std::string> reads{}, writes{};

@@ -35,7 +35,7 @@ constexpr bool distinguishes(Code wide, Code integer) noexcept {
 }
 
 // Maps floats to integers in ascending order: neighbours differ by 1, and -0 and +0 are distinct.
-std::int64_t ordered(Stored stored) noexcept {
+std::int64_t ordered(StoredCode stored) noexcept {
     if (!is_float(stored.code)) return stored.word;
     const std::uint32_t sign = stored.code == Code::half ? 0x8000u : 0x80000000u;
     const std::int64_t magnitude = stored.word & (sign - 1);
@@ -63,7 +63,7 @@ std::uint32_t nearest(Code code, double v) noexcept {
     return static_cast<std::uint32_t>(std::min(std::floor(scaled + 0.5), greatest));
 }
 
-bool is_equal(Stored reference, Stored candidate) noexcept {
+bool is_equal(StoredCode reference, StoredCode candidate) noexcept {
     if (reference.code == candidate.code) return reference.word == candidate.word;
     // Plain integers, as from NumPy files, are compared as codes.
     if (reference.code == Code::integer || candidate.code == Code::integer) return reference.word == candidate.word;
@@ -78,13 +78,13 @@ bool is_equal(Stored reference, Stored candidate) noexcept {
     return r == c;
 }
 
-std::uint32_t distance(Stored reference, Stored candidate) noexcept {
+std::uint32_t distance(StoredCode reference, StoredCode candidate) noexcept {
     constexpr std::uint32_t beyond = ~0u;
     if (is_equal(reference, candidate)) return 0;
     const double c = value(candidate.code, candidate.word);
     if (std::isnan(c) || std::isnan(value(reference.code, reference.word))) return beyond;
     const bool shares_codes = reference.code == candidate.code || candidate.code == Code::integer;
-    const Stored mine{reference.code, shares_codes ? candidate.word : nearest(reference.code, c)};
+    const StoredCode mine{reference.code, shares_codes ? candidate.word : nearest(reference.code, c)};
     const std::int64_t apart = std::abs(ordered(reference) - ordered(mine));
     return static_cast<std::uint32_t>(std::clamp<std::int64_t>(apart, 1, beyond - 1));
 }

@@ -23,13 +23,13 @@ enum class Code : std::uint8_t { unorm8, unorm10, unorm16, unorm24, half, single
 // The code nearest to `v`, halves to even for floats and up for integers; integers are clamped to their range.
 [[nodiscard]] std::uint32_t nearest(Code code, double v) noexcept;
 
-struct Stored {
+struct StoredCode {
     Code code = Code::unorm8;
     std::uint32_t word = 0;
 };
 
-[[nodiscard]] bool is_equal(Stored reference, Stored candidate) noexcept;
+[[nodiscard]] bool is_equal(StoredCode reference, StoredCode candidate) noexcept;
 // 0 exactly if they are equal; 2^32 - 1 if only one is NaN.
-[[nodiscard]] std::uint32_t distance(Stored reference, Stored candidate) noexcept;
+[[nodiscard]] std::uint32_t distance(StoredCode reference, StoredCode candidate) noexcept;
 
 }  // namespace strata::oracle

@@ -22,7 +22,7 @@ Code code_of(scenes::Element element, const std::string& file) {
     throw InputError(file, "descr", "elements |u1, <u2, <u4, <f2 or <f4", "<i4");
 }
 
-Target read_npy(const std::string& path) {
+TargetImage read_npy(const std::string& path) {
     const scenes::NumberArray array = scenes::read_npy(path);
     const auto& shape = array.shape;
     const auto fits = [](std::size_t side) { return side >= 1 && side <= max_side; };
@@ -30,10 +30,10 @@ Target read_npy(const std::string& path) {
         (shape.size() == 3 && (shape[2] < 1 || shape[2] > 4)))
         throw InputError(path, "shape", "(rows, columns) or (rows, columns, channels), at most 16384 and 4",
                          fmt::format("({})", fmt::join(shape, ", ")));
-    Target target{.code = code_of(array.element, path),
-                  .width = static_cast<int>(shape[1]),
-                  .height = static_cast<int>(shape[0]),
-                  .channels = shape.size() == 3 ? static_cast<int>(shape[2]) : 1};
+    TargetImage target{.code = code_of(array.element, path),
+                       .width = static_cast<int>(shape[1]),
+                       .height = static_cast<int>(shape[0]),
+                       .channels = shape.size() == 3 ? static_cast<int>(shape[2]) : 1};
     const bool is_wide = target.code == Code::single || target.code == Code::integer;
     target.meaning = target.channels > 1 ? Meaning::color : is_wide ? Meaning::depth : Meaning::other;
     target.name = target.channels > 1 ? "color" : is_wide ? "depth" : "value";

@@ -14,11 +14,11 @@ struct Position {
     int x = 0, y = 0;
 };
 
-std::size_t index(const Target& target, Position at) noexcept {
+std::size_t index(const TargetImage& target, Position at) noexcept {
     return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(at.x);
 }
 
-bool agree(const Target& a, Position at_a, const Target& b, Position at_b) {
+bool agree(const TargetImage& a, Position at_a, const TargetImage& b, Position at_b) {
     constexpr double one_code = 1.0 / 255;
     const std::size_t i = index(a, at_a), j = index(b, at_b);
     const int channels = std::min({a.channels, b.channels, 3});
@@ -28,7 +28,7 @@ bool agree(const Target& a, Position at_a, const Target& b, Position at_b) {
 }
 
 // The pixels of a width x height corner of `a` that agree with their partner in `b`.
-std::uint64_t agreeing(const Target& a, int width, int height, const Target& b,
+std::uint64_t agreeing(const TargetImage& a, int width, int height, const TargetImage& b,
                        const std::function<Position(Position)>& partner) {
     std::uint64_t pixels = 0;
     for (int y = 0; y < height; ++y)
@@ -36,7 +36,7 @@ std::uint64_t agreeing(const Target& a, int width, int height, const Target& b,
     return pixels;
 }
 
-bool is_scaled(const Target& small, const Target& large, int by) {
+bool is_scaled(const TargetImage& small, const TargetImage& large, int by) {
     return large.width == by * small.width && large.height == by * small.height &&
            agreeing(large, large.width, large.height, small, [by](Position at) {
                return Position{at.x / by, at.y / by};
@@ -44,7 +44,7 @@ bool is_scaled(const Target& small, const Target& large, int by) {
 }
 
 // Every pixel of the small one is one of the square that it stands for: a picture is made smaller in several ways.
-bool is_reduced(const Target& small, const Target& large, int by) {
+bool is_reduced(const TargetImage& small, const TargetImage& large, int by) {
     if (large.width != by * small.width || large.height != by * small.height) return false;
     for (int first = 0; first < by; ++first)
         if (agreeing(small, small.width, small.height, large, [by, first](Position at) {
@@ -54,7 +54,7 @@ bool is_reduced(const Target& small, const Target& large, int by) {
     return false;
 }
 
-std::string turned(const Target& reference, const Target& candidate) {
+std::string turned(const TargetImage& reference, const TargetImage& candidate) {
     if (candidate.width != reference.height || candidate.height != reference.width) return "";
     const int right = reference.width - 1, low = reference.height - 1;
     const auto is_by = [&](const std::function<Position(Position)>& partner) {
@@ -68,7 +68,7 @@ std::string turned(const Target& reference, const Target& candidate) {
     return "";
 }
 
-std::string overlap(const Target& reference, const Target& candidate) {
+std::string overlap(const TargetImage& reference, const TargetImage& candidate) {
     const int width = std::min(reference.width, candidate.width), height = std::min(reference.height, candidate.height);
     const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     const std::uint64_t equal = agreeing(reference, width, height, candidate, [](Position at) { return at; });
@@ -76,7 +76,7 @@ std::string overlap(const Target& reference, const Target& candidate) {
     return fmt::format("equal at {} of the {} pixels where both overlap, from the upper left corner", equal, pixels);
 }
 
-std::string relation(const Target& reference, const Target& candidate) {
+std::string relation(const TargetImage& reference, const TargetImage& candidate) {
     for (const int by : {2, 3, 4}) {
         if (is_scaled(reference, candidate, by)) return fmt::format("the reference scaled by {}", by);
         if (is_reduced(candidate, reference, by)) return fmt::format("the reference scaled by 1/{}", by);
@@ -87,7 +87,7 @@ std::string relation(const Target& reference, const Target& candidate) {
 
 }  // namespace
 
-std::string size_in_words(const Target& reference, const Target& candidate) {
+std::string size_in_words(const TargetImage& reference, const TargetImage& candidate) {
     return fmt::format("{}x{}, {}", candidate.width, candidate.height, relation(reference, candidate));
 }
 

@@ -13,6 +13,6 @@
 namespace strata::oracle {
 
 // "48x32, the reference scaled by 2": the candidate's size, which is not the reference's.
-[[nodiscard]] std::string size_in_words(const Target& reference, const Target& candidate);
+[[nodiscard]] std::string size_in_words(const TargetImage& reference, const TargetImage& candidate);
 
 }  // namespace strata::oracle

@@ -17,9 +17,9 @@
 
 namespace strata::oracle {
 
-struct Pair {
-    const Target* reference = nullptr;
-    const Target* candidate = nullptr;
+struct TargetPair {
+    const TargetImage* reference = nullptr;
+    const TargetImage* candidate = nullptr;
     [[nodiscard]] int channels() const noexcept { return reference->channels; }  // the candidate has the same number
     [[nodiscard]] bool is_equal_at(std::size_t pixel) const noexcept { return distance_at(pixel) == 0; }
     // The distance of the worst channel.
@@ -32,16 +32,16 @@ struct Pair {
 };
 
 // Straight colours multiplied by their alpha, rounded to the nearest code. Empty if all alphas are 1 or there are none.
-[[nodiscard]] std::optional<Target> premultiplied(const Target& target);
+[[nodiscard]] std::optional<TargetImage> premultiplied(const TargetImage& target);
 
 // The channels of colours that are compared.
 enum class ColorChannels : std::uint8_t { all, rgb };
 
 struct Pairing {
-    std::vector<Pair> pairs;
+    std::vector<TargetPair> pairs;
     std::vector<std::string> not_compared{};  // messages
     std::vector<std::string> notes{};         // conversions that made targets comparable
-    std::deque<Target> made{};                // owns converted targets that pairs point to
+    std::deque<TargetImage> made{};           // owns converted targets that pairs point to
 };
 
 // InputError as compare(), and for numbers of channels that no rule above makes equal.

@@ -30,7 +30,7 @@ enum class Meaning : std::uint8_t { color, depth, other };
 enum class AlphaForm : std::uint8_t { unknown, straight, premultiplied };
 
 // Rows from the top, pixel by pixel, with interleaved channels.
-struct Target {
+struct TargetImage {
     std::string part{};  // "layer.000"; "" if the file has one image
     std::string name{};  // "color", "depth"
     Meaning meaning = Meaning::color;
@@ -44,11 +44,11 @@ struct Target {
     [[nodiscard]] std::size_t pixels() const noexcept {
         return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     }
-    [[nodiscard]] Stored at(std::size_t pixel, int channel) const noexcept {
+    [[nodiscard]] StoredCode at(std::size_t pixel, int channel) const noexcept {
         return {code, codes[pixel * static_cast<std::size_t>(channels) + static_cast<std::size_t>(channel)]};
     }
     [[nodiscard]] double value_at(std::size_t pixel, int channel) const noexcept {
-        const Stored stored = at(pixel, channel);
+        const StoredCode stored = at(pixel, channel);
         return value(stored.code, stored.word);
     }
 };
@@ -58,11 +58,11 @@ struct Target {
 
 struct Picture {
     std::string file{};
-    std::vector<Target> targets{};  // at least one
+    std::vector<TargetImage> targets{};  // at least one
 };
 
 [[nodiscard]] inline bool has_depth(const Picture& picture) {
-    return std::ranges::any_of(picture.targets, [](const Target& t) { return t.meaning == Meaning::depth; });
+    return std::ranges::any_of(picture.targets, [](const TargetImage& t) { return t.meaning == Meaning::depth; });
 }
 
 // The layout of a pixel's channels in plain numbers: interleaved, red first or blue first; or a little-endian word of
@@ -92,7 +92,7 @@ inline constexpr const char* raw_layout_expected =
     ":offset=BYTES for a header, :stride=BYTES from row to row";
 
 // A finished target, unchanged, without a part.
-[[nodiscard]] Target as_target(const pipeline::Image& image, std::string name);
+[[nodiscard]] TargetImage as_target(const pipeline::Image& image, std::string name);
 
 // By the ending of the name: .exr, .npy, or an image format (image_decode.h, reader_of); all other files are raw and
 // need a layout. InputError names the file and the position.

@@ -121,13 +121,13 @@ std::size_t own_row_bytes(const RawLayout& layout) noexcept {
     return is_packed ? 4 * width : width * static_cast<std::size_t>(layout.channels) * bytes_of(layout.code);
 }
 
-Target raw_target(std::string_view bytes, const std::string& thing, const RawLayout& layout) {
-    Target target{.name = layout.meaning == Meaning::depth ? "depth" : "color",
-                  .meaning = layout.meaning,
-                  .code = layout.code,
-                  .width = layout.width,
-                  .height = layout.height,
-                  .channels = layout.channels};
+TargetImage raw_target(std::string_view bytes, const std::string& thing, const RawLayout& layout) {
+    TargetImage target{.name = layout.meaning == Meaning::depth ? "depth" : "color",
+                       .meaning = layout.meaning,
+                       .code = layout.code,
+                       .width = layout.width,
+                       .height = layout.height,
+                       .channels = layout.channels};
     const auto rows = static_cast<std::size_t>(layout.height);
     const std::size_t row = own_row_bytes(layout), stride = layout.row_bytes == 0 ? row : layout.row_bytes;
     // The last row may end without its padding.
@@ -145,7 +145,7 @@ Target raw_target(std::string_view bytes, const std::string& thing, const RawLay
     return target;
 }
 
-Target read_raw(const std::string& path, const RawLayout& layout) {
+TargetImage read_raw(const std::string& path, const RawLayout& layout) {
     return raw_target(scenes::read_text_file(path, max_bytes), path, layout);
 }
 

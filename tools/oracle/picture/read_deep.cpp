@@ -56,21 +56,21 @@ std::vector<std::size_t> near_to_far(const StoredPart& part, const Channels& dep
     return order;
 }
 
-Target empty_target(const StoredPart& part, const Channels& channels, std::size_t layer, Meaning meaning) {
-    Target target{.part = fmt::format("layer.{:03}", layer),
-                  .name = meaning == Meaning::depth ? "depth" : "color",
-                  .meaning = meaning,
-                  .code = channels.code,
-                  .width = part.header.width,
-                  .height = part.header.height,
-                  .channels = static_cast<int>(channels.places.size())};
+TargetImage empty_target(const StoredPart& part, const Channels& channels, std::size_t layer, Meaning meaning) {
+    TargetImage target{.part = fmt::format("layer.{:03}", layer),
+                       .name = meaning == Meaning::depth ? "depth" : "color",
+                       .meaning = meaning,
+                       .code = channels.code,
+                       .width = part.header.width,
+                       .height = part.header.height,
+                       .channels = static_cast<int>(channels.places.size())};
     target.codes.resize(target.pixels() * channels.places.size());
     return target;
 }
 
 }  // namespace
 
-std::vector<Target> layers_of_deep(const StoredPart& part, const std::string& path) {
+std::vector<TargetImage> layers_of_deep(const StoredPart& part, const std::string& path) {
     const Channels color = channels_of(part, {"R", "G", "B", "A"}, path), depth = channels_of(part, {"Z"}, path);
     if (color.places.empty()) throw InputError(path, "deep part", "one of the channels R, G, B and A", "none");
     // A file without any sample has one empty layer.
@@ -79,7 +79,7 @@ std::vector<Target> layers_of_deep(const StoredPart& part, const std::string& pa
     if (layers * part.samples.size() > most_samples)
         throw InputError(path, "deep part", fmt::format("at most {} samples in layers of all pixels", most_samples),
                          fmt::format("{} layers of {} pixels", layers, part.samples.size()));
-    std::vector<Target> colors, depths;
+    std::vector<TargetImage> colors, depths;
     for (std::size_t layer = 0; layer < layers; ++layer) {
         colors.push_back(empty_target(part, color, layer, Meaning::color));
         if (!depth.places.empty()) depths.push_back(empty_target(part, depth, layer, Meaning::depth));
@@ -93,7 +93,7 @@ std::vector<Target> layers_of_deep(const StoredPart& part, const std::string& pa
             if (!depth.places.empty()) depths[layer].codes[pixel] = depth.word(part, order[layer], 0);
         }
     }
-    std::vector<Target> all;
+    std::vector<TargetImage> all;
     for (std::size_t layer = 0; layer < layers; ++layer) {
         all.push_back(std::move(colors[layer]));
         if (!depths.empty()) all.push_back(std::move(depths[layer]));

@@ -16,6 +16,6 @@ namespace strata::oracle {
 
 // InputError, which names `path`, for a part without R, G, B or A of one type, and for more than 2^26 samples in all
 // layers.
-[[nodiscard]] std::vector<Target> layers_of_deep(const scenes::StoredPart& part, const std::string& path);
+[[nodiscard]] std::vector<TargetImage> layers_of_deep(const scenes::StoredPart& part, const std::string& path);
 
 }  // namespace strata::oracle

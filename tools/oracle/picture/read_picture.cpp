@@ -33,15 +33,15 @@ Code code_of_channel(scenes::StoredType type) noexcept {
 }
 
 // A part written by Strata states the format of its codes.
-Target of_image(const scenes::FileImage& found) {
-    Target target = as_target(found.image, found.target);
+TargetImage of_image(const scenes::FileImage& found) {
+    TargetImage target = as_target(found.image, found.target);
     target.part = found.part;
     return target;
 }
 
 // Channels of one type in the given order. They may be unaligned, so they are copied.
-Target of_channels(const StoredPart& part, const std::vector<std::string>& names, Meaning meaning) {
-    Target target{
+TargetImage of_channels(const StoredPart& part, const std::vector<std::string>& names, Meaning meaning) {
+    TargetImage target{
         .part = part.header.name, .meaning = meaning, .width = part.header.width, .height = part.header.height};
     target.channels = static_cast<int>(names.size());
     target.codes.resize(target.pixels() * names.size());
@@ -57,8 +57,8 @@ Target of_channels(const StoredPart& part, const std::vector<std::string>& names
 }
 
 // A part with only a depth target: its codes have the format that the part names.
-Target own_depth(const StoredPart& part, const std::string& format) {
-    Target target = of_channels(part, {"Zbits"}, Meaning::depth);
+TargetImage own_depth(const StoredPart& part, const std::string& format) {
+    TargetImage target = of_channels(part, {"Zbits"}, Meaning::depth);
     target.name = "depth";
     for (const pipeline::Format known : {pipeline::Format::d16, pipeline::Format::d24, pipeline::Format::d24s8,
                                          pipeline::Format::d32f, pipeline::Format::d16f, pipeline::Format::d24f})
@@ -67,7 +67,7 @@ Target own_depth(const StoredPart& part, const std::string& format) {
 }
 
 // A part from another program: its colours, its depth, and every other channel as its own target.
-void add_foreign(const StoredPart& part, const std::string& path, int number, std::vector<Target>& targets) {
+void add_foreign(const StoredPart& part, const std::string& path, int number, std::vector<TargetImage>& targets) {
     std::vector<std::string> colors, others;
     for (const char* name : {"R", "G", "B", "A"})
         if (scenes::find_channel(part.header, name)) colors.emplace_back(name);
@@ -96,7 +96,7 @@ Picture read_exr(const std::string& path) {
         };
         if (!part.is_whole) fail("a whole image", "a damaged one");
         if (part.header.is_deep) {
-            for (Target& layer : layers_of_deep(part, path)) {
+            for (TargetImage& layer : layers_of_deep(part, path)) {
                 if (part.header.name.starts_with("sample.")) layer.part = part.header.name + "." + layer.part;
                 picture.targets.push_back(std::move(layer));
             }
@@ -120,17 +120,17 @@ Picture read_exr(const std::string& path) {
 Picture read_by(const char* reader, const std::string& path) {
     scenes::FileCodes stored = scenes::read_codes(path, reader);
     const Code halves_or_codes = stored.is_float ? Code::half : Code::unorm16;
-    Target target{.name = "color",
-                  .code = stored.bits == 8    ? Code::unorm8
-                          : stored.bits == 16 ? halves_or_codes
-                                              : Code::single,
-                  .width = stored.width,
-                  .height = stored.height,
-                  .channels = stored.channels,
-                  .codes = std::move(stored.codes),
-                  .is_grey = stored.channels < 3,
-                  .alpha_form = AlphaForm::straight,
-                  .holds_encoded = !stored.is_float};
+    TargetImage target{.name = "color",
+                       .code = stored.bits == 8    ? Code::unorm8
+                               : stored.bits == 16 ? halves_or_codes
+                                                   : Code::single,
+                       .width = stored.width,
+                       .height = stored.height,
+                       .channels = stored.channels,
+                       .codes = std::move(stored.codes),
+                       .is_grey = stored.channels < 3,
+                       .alpha_form = AlphaForm::straight,
+                       .holds_encoded = !stored.is_float};
     return {path, {std::move(target)}};
 }
 
@@ -154,13 +154,13 @@ Code code_of(pipeline::Format format) {
     return Code::single;
 }
 
-Target as_target(const pipeline::Image& image, std::string name) {
-    Target target{.name = std::move(name),
-                  .meaning = pipeline::is_depth(image.format) ? Meaning::depth : Meaning::color,
-                  .code = code_of(image.format),
-                  .width = image.width,
-                  .height = image.height,
-                  .channels = image.channels()};
+TargetImage as_target(const pipeline::Image& image, std::string name) {
+    TargetImage target{.name = std::move(name),
+                       .meaning = pipeline::is_depth(image.format) ? Meaning::depth : Meaning::color,
+                       .code = code_of(image.format),
+                       .width = image.width,
+                       .height = image.height,
+                       .channels = image.channels()};
     target.codes.assign(image.codes.begin(), image.codes.end());
     return target;
 }

@@ -19,7 +19,7 @@ std::uint32_t stored(Code code, float value, ColorSpace space) {
 
 }  // namespace
 
-std::optional<Target> stored_like(const Target& rendered, const Target& file, ColorSpace space) {
+std::optional<TargetImage> stored_like(const TargetImage& rendered, const TargetImage& file, ColorSpace space) {
     const bool is_float = rendered.code == Code::half || rendered.code == Code::single;
     const bool is_same = space == ColorSpace::encoded && !is_float;
     if (!file.holds_encoded || is_same || rendered.meaning != Meaning::color || rendered.channels != 4)
@@ -28,7 +28,7 @@ std::optional<Target> stored_like(const Target& rendered, const Target& file, Co
     const bool has_alpha = file.channels == 2 || file.channels == 4;
     const bool is_divided =
         has_alpha && file.alpha_form == AlphaForm::straight && rendered.alpha_form == AlphaForm::premultiplied;
-    Target made = rendered;
+    TargetImage made = rendered;
     made.code = file.code;
     made.alpha_form = is_divided ? AlphaForm::straight : rendered.alpha_form;
     for (std::size_t pixel = 0; pixel < made.pixels(); ++pixel) {
@@ -44,10 +44,10 @@ std::optional<Target> stored_like(const Target& rendered, const Target& file, Co
 }
 
 Picture stored_like(Picture rendered, const Picture& candidate, ColorSpace space) {
-    const auto is_color = [](const Target& t) { return t.meaning == Meaning::color; };
+    const auto is_color = [](const TargetImage& t) { return t.meaning == Meaning::color; };
     const auto file = std::ranges::find_if(candidate.targets, is_color);
     if (file == candidate.targets.end()) return rendered;
-    for (Target& target : rendered.targets)
+    for (TargetImage& target : rendered.targets)
         if (auto made = stored_like(target, *file, space)) target = *std::move(made);
     return rendered;
 }

@@ -1,6 +1,6 @@
 // tools/oracle/picture/stored_like.h - a rendered target as an image file holds it.
 //
-// Rule     PNG, JPEG, TGA, BMP and TIFF files of 8 or 16 bits hold sRGB-encoded colours (Target::holds_encoded). A
+// Rule     PNG, JPEG, TGA, BMP and TIFF files of 8 or 16 bits hold sRGB-encoded colours (TargetImage::holds_encoded). A
 //          target is converted as the program's writer of PNG does: divided by alpha if the file's colours are
 //          straight, encoded if the scene blends linear values, then rounded to a code. Targets of 8-bit codes in the
 //          encoded space are left as they are. EXR, HDR, NPY and plain numbers hold what was rendered.
@@ -14,7 +14,8 @@
 namespace strata::oracle {
 
 // `space`: of the rendered colours. Empty if `file` holds what was rendered.
-[[nodiscard]] std::optional<Target> stored_like(const Target& rendered, const Target& file, pipeline::ColorSpace space);
+[[nodiscard]] std::optional<TargetImage> stored_like(const TargetImage& rendered, const TargetImage& file,
+                                                     pipeline::ColorSpace space);
 
 // The picture with its colours stored as those of the candidate.
 [[nodiscard]] Picture stored_like(Picture rendered, const Picture& candidate, pipeline::ColorSpace space);

@@ -22,15 +22,15 @@ constexpr int largest_window = 64;      // in pixels, per side
 
 // Only tolerances of codes, which apply in any frame.
 Tolerances without_budgets(Tolerances tolerances) {
-    for (Budget* budget : {&tolerances.coverage, &tolerances.background, &tolerances.layers, &tolerances.depth,
-                           &tolerances.color, &tolerances.pixels})
+    for (PixelBudget* budget : {&tolerances.coverage, &tolerances.background, &tolerances.layers, &tolerances.depth,
+                                &tolerances.color, &tolerances.pixels})
         *budget = {};
     return tolerances;
 }
 
 // Keeps only the window's pixels of every target.
 void keep(Picture& picture, const Rect& window) {
-    for (Target& target : picture.targets) {
+    for (TargetImage& target : picture.targets) {
         const auto channels = static_cast<std::size_t>(target.channels);
         const std::size_t row = static_cast<std::size_t>(target.width) * channels,
                           kept = static_cast<std::size_t>(window.width()) * channels;
@@ -60,7 +60,7 @@ class Reducer {
         : whole_{scene}, candidate_{candidate}, on_run_{on_run}, frame_{rules.frame}, tolerances_{rules.tolerances} {
         whole_.options.audit = whole_.options.keep_layers = whole_.options.nearest_depth = false;
         best_ = {triangles_of(whole_.scene.list), {0, 0, whole_.options.width, whole_.options.height}};
-        if (frame_ == Frame::whole && whole_.options.raster.scissor)
+        if (frame_ == FrameExtent::whole && whole_.options.raster.scissor)
             best_.window = intersection(best_.window, *whole_.options.raster.scissor);
     }
 
@@ -83,7 +83,8 @@ class Reducer {
         }
         result.scene = scene_of(best_);
         result.triangles = best_.triangles.size();
-        result.window = frame_ == Frame::whole ? best_.window : Rect{0, 0, best_.window.width(), best_.window.height()};
+        result.window =
+            frame_ == FrameExtent::whole ? best_.window : Rect{0, 0, best_.window.width(), best_.window.height()};
         result.comparison = *difference(best_);
         result.runs = runs_;
         result.undrawn = undrawn_;
@@ -96,7 +97,7 @@ class Reducer {
         scene.scene.list = oracle::cut(whole_.scene.list, cut.triangles);
         auto& scissor = scene.options.raster.scissor;
         const Rect frame{0, 0, whole_.options.width, whole_.options.height};
-        if (frame_ == Frame::whole) {
+        if (frame_ == FrameExtent::whole) {
             scissor = cut.window == frame ? std::nullopt : std::optional(cut.window);
             return scene;
         }
@@ -124,7 +125,7 @@ class Reducer {
             ++undrawn_;
             return std::nullopt;
         }
-        if (frame_ == Frame::whole)
+        if (frame_ == FrameExtent::whole)
             for (Picture* picture : {&right, &*found}) keep(*picture, window);
         return compare(right, *found, tolerances_, background_of(scene));
     }
@@ -255,7 +256,7 @@ class Reducer {
     Golden whole_;
     const Candidate& candidate_;
     const std::function<void(const Golden&)>& on_run_;
-    Frame frame_;
+    FrameExtent frame_;
     Tolerances tolerances_;
     Cut best_;
     Kind kind_ = Kind::none;
@@ -284,7 +285,7 @@ Background background_of(const Golden& scene) {
     empty.scene.list = cut(scene.scene.list, {});
     empty.options.width = empty.options.height = 1;
     empty.options.raster.scissor.reset();
-    const Target color = right_picture(empty).targets[0];
+    const TargetImage color = right_picture(empty).targets[0];
     Background background;
     for (int c = 0; c < color.channels; ++c) background.push_back(color.value_at(0, c));
     return background;

@@ -28,11 +28,11 @@ using Candidate = std::function<std::optional<Picture>(const Golden& scene)>;
 
 // How a window of the frame is drawn: as a frame of its own, or as the scissor's rectangle in the whole frame, for
 // failures that only occur in frames of that size; then pixels outside it are not compared.
-enum class Frame : std::uint8_t { cut, whole };
+enum class FrameExtent : std::uint8_t { cut, whole };
 
 struct ReduceRules {
     Tolerances tolerances{};
-    Frame frame = Frame::cut;
+    FrameExtent frame = FrameExtent::cut;
 };
 
 struct Reduction {

@@ -179,7 +179,7 @@ void StackMaker::set_background(const Rule& rule, const PixelList& pixel) {
             break;
         case RuleKind::picture_encoded: stack_.finish = Finish::encoded; break;
         case RuleKind::picture_decoded:
-            stack_.finish = setting_->stored == Stored::encoded ? Finish::as_is : Finish::decoded;
+            stack_.finish = setting_->stored == ColorStorage::encoded ? Finish::as_is : Finish::decoded;
             break;
         case RuleKind::background_twice: {
             Rgba again = pixel.behind;

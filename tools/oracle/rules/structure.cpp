@@ -7,20 +7,20 @@
 namespace strata::oracle::verdict {
 
 Ties ties_number(std::size_t number) noexcept {
-    return {static_cast<TieRule>(number % tie_rule_count),
-            number < tie_rule_count ? DepthKey::code : DepthKey::shader_z};
+    return {static_cast<TieHandling>(number % tie_rule_count),
+            number < tie_rule_count ? ComparedDepth::code : ComparedDepth::shader_z};
 }
 
 std::string_view describe(const Ties& ties) noexcept {
     switch (ties.rule) {
-        case TieRule::first: return "all composited, the first submitted in front";
-        case TieRule::last: return "all composited, the last submitted in front";
-        case TieRule::unique: return "the first submitted kept";
-        case TieRule::unique_last: return "the last submitted kept";
-        case TieRule::merged: return "merged by MAX";
-        case TieRule::merged_premultiplied: return "merged by MAX of premultiplied colours";
-        case TieRule::other: return "all composited, in an order that is not that of submission";
-        case TieRule::first_then_last: break;
+        case TieHandling::first: return "all composited, the first submitted in front";
+        case TieHandling::last: return "all composited, the last submitted in front";
+        case TieHandling::unique: return "the first submitted kept";
+        case TieHandling::unique_last: return "the last submitted kept";
+        case TieHandling::merged: return "merged by MAX";
+        case TieHandling::merged_premultiplied: return "merged by MAX of premultiplied colours";
+        case TieHandling::other: return "all composited, in an order that is not that of submission";
+        case TieHandling::first_then_last: break;
     }
     return "all composited, the first submitted in front at the near end and behind at the far end";
 }
@@ -104,25 +104,25 @@ Layer merged(const Rgba& a, const Rgba& b, bool is_premultiplied) {
 
 namespace {
 
-bool is_one_depth(const Fragment& a, const Fragment& b, DepthKey key) noexcept {
-    return key == DepthKey::code ? a.code == b.code : a.shader_z == b.shader_z;
+bool is_one_depth(const Fragment& a, const Fragment& b, ComparedDepth key) noexcept {
+    return key == ComparedDepth::code ? a.code == b.code : a.shader_z == b.shader_z;
 }
 
 }  // namespace
 
 void StackMaker::add_group(std::span<const Fragment* const> group, const Ties& ties, bool is_near, std::size_t depth) {
-    const TieRule rule = ties.rule;
+    const TieHandling rule = ties.rule;
     const auto add = [&](const Fragment* f) {
         items_.push_back({{.color = f->color, .slack = f->slack, .spread = f->spread}, f, depth});
     };
-    const bool is_last_first = rule == TieRule::last || (rule == TieRule::first_then_last && !is_near);
+    const bool is_last_first = rule == TieHandling::last || (rule == TieHandling::first_then_last && !is_near);
     switch (rule) {
-        case TieRule::first:
-        case TieRule::last:
-        case TieRule::first_then_last:
+        case TieHandling::first:
+        case TieHandling::last:
+        case TieHandling::first_then_last:
             for (std::size_t i = 0; i < group.size(); ++i) add(group[is_last_first ? group.size() - 1 - i : i]);
             break;
-        case TieRule::other: {
+        case TieHandling::other: {
             std::vector<const Fragment*> left(group.begin(), group.end());
             std::uint32_t number = group.size() <= most_permuted ? ties.permutation : 0;
             while (!left.empty()) {
@@ -133,14 +133,14 @@ void StackMaker::add_group(std::span<const Fragment* const> group, const Ties& t
             }
             break;
         }
-        case TieRule::unique: add(group.front()); break;
-        case TieRule::unique_last: add(group.back()); break;
-        case TieRule::merged:
-        case TieRule::merged_premultiplied:
+        case TieHandling::unique: add(group.front()); break;
+        case TieHandling::unique_last: add(group.back()); break;
+        case TieHandling::merged:
+        case TieHandling::merged_premultiplied:
             add(group.front());
             for (std::size_t i = 1; i < group.size(); ++i)
                 items_.back().layer = merged(items_.back().layer.color, group[i]->color,
-                                             is_near || rule == TieRule::merged_premultiplied);
+                                             is_near || rule == TieHandling::merged_premultiplied);
             break;
     }
 }
@@ -165,7 +165,7 @@ void StackMaker::list(std::span<const Rule> rules, const PixelList& pixel, const
     if (!rules.empty())
         for (const Fragment& f : pixel.hidden)
             if (shows(f)) order_.push_back(&f);
-    if (ties.key == DepthKey::shader_z)
+    if (ties.key == ComparedDepth::shader_z)
         std::ranges::stable_sort(order_, [](const Fragment* a, const Fragment* b) {
             return a->shader_z != b->shader_z ? a->shader_z < b->shader_z : a->primitive < b->primitive;
         });
@@ -222,9 +222,9 @@ const Stack& StackMaker::with(std::span<const Rule> rules, const PixelList& give
     steps_.list(order_.size());
     stack_.background = pixel.behind;
     stack_.background_spread = pixel.behind_spread;
-    stack_.is_linear = setting_->stored == Stored::srgb_target;
+    stack_.is_linear = setting_->stored == ColorStorage::srgb_target;
     stack_.is_moved = is_moved;
-    stack_.finish = setting_->stored == Stored::encoded ? Finish::encoded : Finish::as_is;
+    stack_.finish = setting_->stored == ColorStorage::encoded ? Finish::encoded : Finish::as_is;
     stack_.mixing = {};
     for (const Rule& rule : rules) {
         if (!rule.region.has(pixel.x, pixel.y)) continue;

@@ -24,7 +24,7 @@ namespace strata::oracle::verdict {
 // The rules for ties that may give different structures at a pixel; of equivalent rules only the first is used.
 struct TieChoices {
     std::array<std::uint8_t, ties_count> same_as{};  // by number: the first equivalent rule
-    std::uint32_t permutations = 0;  // number of permutations for TieRule::other; 0: they add no structure
+    std::uint32_t permutations = 0;  // number of permutations for TieHandling::other; 0: they add no structure
 };
 [[nodiscard]] TieChoices tie_choices(std::span<const Rule> rules, const PixelList& list) noexcept;
 

@@ -8,7 +8,7 @@
 
 namespace strata::oracle::verdict {
 
-enum class TieRule : std::uint8_t {
+enum class TieHandling : std::uint8_t {
     first,                 // all, with the first submitted in front
     last,                  // all, with the last submitted in front
     unique,                // only the first submitted
@@ -18,14 +18,14 @@ enum class TieRule : std::uint8_t {
     first_then_last,       // `first` in the near half of the depths, `last` in the far half
     other                  // all, in another order: `permutation` of the fragments of each depth
 };
-enum class DepthKey : std::uint8_t {
+enum class ComparedDepth : std::uint8_t {
     code,
     shader_z
 };  // the depth that is compared: the stored code, or binary32 as in a program
 
 struct Ties {
-    TieRule rule = TieRule::first;
-    DepthKey key = DepthKey::code;
+    TieHandling rule = TieHandling::first;
+    ComparedDepth key = ComparedDepth::code;
     std::uint32_t permutation =
         0;  // of `other`, less than `permutations`; groups of more than `most_permuted` keep their order
     friend bool operator==(const Ties&, const Ties&) = default;

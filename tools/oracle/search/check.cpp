@@ -60,12 +60,12 @@ void measure(const Stack& stack, const ReachableColor& reach, const std::array<d
 constexpr std::size_t most_examples = 64;
 
 // The rules for ties that keep all fragments of one depth.
-constexpr TieMask of_rule(TieRule rule) {
+constexpr TieMask of_rule(TieHandling rule) {
     const TieMask bit = TieMask{1} << static_cast<unsigned>(rule);
     return bit | bit << tie_rule_count;
 }
-constexpr TieMask keeping_ties =
-    of_rule(TieRule::first) | of_rule(TieRule::last) | of_rule(TieRule::first_then_last) | TieMask{1} << ties_count;
+constexpr TieMask keeping_ties = of_rule(TieHandling::first) | of_rule(TieHandling::last) |
+                                 of_rule(TieHandling::first_then_last) | TieMask{1} << ties_count;
 
 // The result for one tile.
 struct PartChecked {

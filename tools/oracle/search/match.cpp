@@ -49,7 +49,7 @@ MatchingTies found_in(const Compositor& compositor, std::span<const Rule> rules,
     for (std::size_t n = ties_count; n-- > 0;)
         if (are_held[n]) add(1u << n, ties_number(n));
     for (std::uint32_t p = 1; p < choices.permutations && found.mask == 0; ++p)  // 0 is submission order
-        if (const Ties other{TieRule::other, DepthKey::code, p}; is_held(other)) add(1u << ties_count, other);
+        if (const Ties other{TieHandling::other, ComparedDepth::code, p}; is_held(other)) add(1u << ties_count, other);
     return found;
 }
 
@@ -110,7 +110,7 @@ StackedPixel stacked(std::span<const Rule> rules, const SampledPixel& pixel, Sta
         const TieChoices choices = tie_choices(rules, list);
         for (std::size_t n = 1; n < ties_count; ++n)
             if (choices.same_as[n] == n) add(ties_number(n));
-        for (std::uint32_t p = 1; p < choices.permutations; ++p) add({TieRule::other, DepthKey::code, p});
+        for (std::uint32_t p = 1; p < choices.permutations; ++p) add({TieHandling::other, ComparedDepth::code, p});
     };
     const auto add_others = [&](bool is_moved) {
         if (pixel.list.edge == nullptr) return;
@@ -141,7 +141,7 @@ bool is_as_given(const StackedPixel& pixel, const Stack& found) noexcept {
 namespace {
 
 // The cost of a sample under one hypothesis.
-struct Cost {
+struct SampleCost {
     double wrong = 0, bits = 0;
     bool is_as_given = true;  // holds for every pixel
     // If no hypothesis holds, a wrong pixel costs four times as much as in pricing.h: it is caused by a mistake, which
@@ -201,11 +201,11 @@ std::vector<WeightedPixel> weighted(std::span<const Rule> rules, const Sample& s
 }
 
 // Stops when the cost exceeds `most_bits`, or at the first wrong pixel if none is allowed.
-Cost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pixels, WrongPixels allowed,
-             double most_bits, Steps& steps) {
+SampleCost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pixels, WrongPixels allowed,
+                   double most_bits, Steps& steps) {
     const Compositor compositor{hypothesis};
     const Pricing pricing{hypothesis.result.storage};
-    Cost cost{.bits = bits_of(hypothesis)};
+    SampleCost cost{.bits = bits_of(hypothesis)};
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const auto& [pixel, weight] = *pixels[i];
         const Stack* const stack = reaching(compositor, pixel, steps);
@@ -227,7 +227,7 @@ Cost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pi
 // reach.
 double least_of(const HypothesisFamily& family, std::vector<const WeightedPixel*>& pixels, WrongPixels allowed,
                 double most, Steps& steps) {
-    Cost cost = cost_of(family.widest, pixels, allowed, std::numeric_limits<double>::max(), steps);
+    SampleCost cost = cost_of(family.widest, pixels, allowed, std::numeric_limits<double>::max(), steps);
     if (allowed == WrongPixels::none && cost.wrong > 0) return most;
     cost.bits = 0;
     return cost.total(Pricing{family.widest.result.storage});
@@ -244,7 +244,7 @@ std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rul
     for (const WeightedPixel& pixel : made) pixels.push_back(&pixel);
     constexpr double any_bits = std::numeric_limits<double>::max();
     if (likely)
-        if (const Cost cost = cost_of(*likely, pixels, WrongPixels::none, any_bits, steps);
+        if (const SampleCost cost = cost_of(*likely, pixels, WrongPixels::none, any_bits, steps);
             cost.wrong == 0 && cost.is_as_given)
             return likely;
     // Returns the first hypothesis with a cost below `most` that is_enough, or the one with the least cost.
@@ -255,7 +255,7 @@ std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rul
             if (allowed == WrongPixels::none && steps.is_spent()) break;
             if (least_of(family, pixels, allowed, best, steps) >= best) continue;
             for (const Hypothesis& h : family.members) {
-                const Cost cost = cost_of(h, pixels, allowed, best, steps);
+                const SampleCost cost = cost_of(h, pixels, allowed, best, steps);
                 const double bits = cost.total(Pricing{h.result.storage});
                 if (bits >= best || (allowed == WrongPixels::none && cost.wrong > 0)) continue;
                 best = bits;

@@ -14,7 +14,7 @@
 
 namespace strata::oracle::verdict {
 
-using TieMask = std::uint32_t;  // bit n: ties_number(n) holds; bit ties_count: TieRule::other holds
+using TieMask = std::uint32_t;  // bit n: ties_number(n) holds; bit ties_count: TieHandling::other holds
 inline constexpr TieMask all_ties = (2u << ties_count) - 1;
 struct MatchingTies {
     TieMask mask = 0;

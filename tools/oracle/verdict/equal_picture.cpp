@@ -36,8 +36,8 @@ rasterizer::Rect fullest(const SceneFragments& scene) {
 }
 
 // A finished picture as the candidate's file has it; empty if its codes are of another type.
-std::optional<Target> as_stored(const pipeline::Image& image, const PictureQuestion& question) {
-    Target own = as_target(image, "color");
+std::optional<TargetImage> as_stored(const pipeline::Image& image, const PictureQuestion& question) {
+    TargetImage own = as_target(image, "color");
     own.alpha_form = AlphaForm::premultiplied;
     const auto space = question.is_frame_linear ? pipeline::ColorSpace::linear : pipeline::ColorSpace::encoded;
     if (auto stored = stored_like(own, question.colors, space)) own = *std::move(stored);
@@ -45,8 +45,8 @@ std::optional<Target> as_stored(const pipeline::Image& image, const PictureQuest
     return own;
 }
 
-bool is_equal(const Target& own, const PictureQuestion& question, const rasterizer::Rect& rect) {
-    const Target& candidate = question.colors;
+bool is_equal(const TargetImage& own, const PictureQuestion& question, const rasterizer::Rect& rect) {
+    const TargetImage& candidate = question.colors;
     const int channels = candidate.is_grey    ? 3
                          : question.has_alpha ? candidate.channels
                                               : std::min(candidate.channels, 3);

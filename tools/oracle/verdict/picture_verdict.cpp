@@ -19,17 +19,18 @@ namespace {
 using pipeline::DeviceProfile;
 
 // The ways to read the numbers, the usual first.
-std::vector<Stored> readings(const PictureQuestion& question) {
-    if (!question.is_frame_linear || !question.colors.holds_encoded) return {Stored::as_they_are};
-    return {Stored::encoded, Stored::srgb_target, Stored::as_they_are};
+std::vector<ColorStorage> readings(const PictureQuestion& question) {
+    if (!question.is_frame_linear || !question.colors.holds_encoded) return {ColorStorage::as_they_are};
+    return {ColorStorage::encoded, ColorStorage::srgb_target, ColorStorage::as_they_are};
 }
 
-std::string words_of(Stored stored) {
+std::string words_of(ColorStorage stored) {
     switch (stored) {
-        case Stored::as_they_are:
+        case ColorStorage::as_they_are:
             return "  its numbers are linear light, as they are: a file for display has them encoded\n";
-        case Stored::srgb_target: return "  blended in an sRGB target: every blend is decoded, and encoded again\n";
-        case Stored::encoded: break;
+        case ColorStorage::srgb_target:
+            return "  blended in an sRGB target: every blend is decoded, and encoded again\n";
+        case ColorStorage::encoded: break;
     }
     return "";
 }
@@ -77,7 +78,7 @@ class PictureJudge {
     }
 
     [[nodiscard]] std::optional<Verdict> by_another_reading() {
-        const std::vector<Stored> all = readings(question_);
+        const std::vector<ColorStorage> all = readings(question_);
         for (std::size_t i = 1; i < all.size(); ++i) {
             scene().set_stored(all[i]);
             auto right = right_narrowly(scene(), seen());

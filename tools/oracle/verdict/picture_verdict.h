@@ -28,7 +28,7 @@ namespace strata::oracle::verdict {
 
 // One sample per pixel; resolved.h judges pictures with several.
 struct PictureQuestion {
-    const Target& colors;
+    const TargetImage& colors;
     bool is_form_stated = false;                      // an option says whether colours are straight or premultiplied
     bool has_alpha = true;                            // false: alpha is not compared
     bool is_frame_linear = false;                     // --color-space linear

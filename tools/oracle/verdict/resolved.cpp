@@ -148,16 +148,16 @@ class SampleMean {
 };
 
 // The number of wrong pixels among the given ones, and the sum of their intervals' widths; or more than the best cost.
-struct Cost {
+struct ResolveCost {
     std::size_t wrong = 0;
     double width = 0;
-    friend bool operator<(const Cost& a, const Cost& b) noexcept {
+    friend bool operator<(const ResolveCost& a, const ResolveCost& b) noexcept {
         return a.wrong != b.wrong ? a.wrong < b.wrong : a.width < b.width;
     }
 };
-Cost cost_of(const SampleMean& resolve, const std::vector<std::vector<Stack>>& stacks,
-             const std::vector<const ResolvedPixel*>& pixels, const Cost& best) {
-    Cost cost;
+ResolveCost cost_of(const SampleMean& resolve, const std::vector<std::vector<Stack>>& stacks,
+                    const std::vector<const ResolvedPixel*>& pixels, const ResolveCost& best) {
+    ResolveCost cost;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const auto mean = resolve.mean(stacks[i]);
         cost.wrong += resolve.holds(mean, pixels[i]->value) ? 0 : 1;
@@ -231,14 +231,14 @@ std::optional<SamplesAccount> closest(const std::vector<Hypothesis>& all, const 
                                       const std::vector<const ResolvedPixel*>& pixels, StackMaker& maker,
                                       std::size_t most_wrong) {
     std::optional<SamplesAccount> account;
-    Cost best{.wrong = most_wrong + 1};
+    ResolveCost best{.wrong = most_wrong + 1};
     std::vector<std::vector<Stack>> previous;
     for (std::size_t n = 0; n < ties_count; ++n) {
         std::vector<std::vector<Stack>> stacks;
         for (const ResolvedPixel* pixel : pixels) stacks.push_back(stacks_of(*pixel, ties_number(n), maker));
         if (stacks == previous) continue;  // no fragments have equal depths
         for (const Hypothesis& h : all) {
-            const Cost cost = cost_of(SampleMean{h, candidate}, stacks, pixels, best);
+            const ResolveCost cost = cost_of(SampleMean{h, candidate}, stacks, pixels, best);
             if (cost < best) best = cost, account = SamplesAccount{h, ties_number(n), cost.wrong};
         }
         previous = std::move(stacks);

@@ -109,7 +109,7 @@ std::vector<CheckedAccount> told_without_edges(const SceneFragments& scene, cons
 }  // namespace
 
 Verdict RightPicture::decide(Verdict verdict, CheckedAccount&& right, const Sample& even) const {
-    Work& work = *scene_.setting().work;
+    WorkCounter& work = *scene_.setting().work;
     verdict.right = std::move(right);
     work.allow(of_edges_);
     verdict.explanations = told_without_edges(scene_, candidate_, all_.definite, verdict.right, even);

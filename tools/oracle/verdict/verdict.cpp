@@ -44,8 +44,8 @@ std::optional<Rgba> other_background(const SceneFragments& scene, const Colors& 
 }
 
 // The candidate with its rows or columns reversed, or both.
-Target rearranged(const Colors& candidate, RuleKind kind) {
-    Target target = candidate.target();
+TargetImage rearranged(const Colors& candidate, RuleKind kind) {
+    TargetImage target = candidate.target();
     const auto channels = static_cast<std::size_t>(target.channels);
     const auto width = static_cast<std::size_t>(target.width), height = static_cast<std::size_t>(target.height);
     for (std::size_t y = 0; y < height; ++y)
@@ -63,7 +63,7 @@ Target rearranged(const Colors& candidate, RuleKind kind) {
 std::optional<CheckedAccount> right_but_rearranged(const SceneFragments& scene, const Colors& candidate,
                                                    const Families& definite, std::size_t most_sampled) {
     for (const RuleKind kind : {RuleKind::rows_reversed, RuleKind::columns_reversed, RuleKind::turned}) {
-        const Target target = rearranged(candidate, kind);
+        const TargetImage target = rearranged(candidate, kind);
         const Colors colors{target, candidate.use()};
         Sample sample = sampled(scene, colors, most_sampled);
         auto found = account_for(definite, {}, scene, colors, sample);
@@ -173,7 +173,7 @@ void sort_explanations(Verdict& verdict) {
 Verdict found_at_length(SceneFragments& scene, const Colors& candidate, const SearchLimits& limits) {
     constexpr std::size_t most_structures = 32768;
     restart(scene);
-    Work& work = *scene.setting().work;
+    WorkCounter& work = *scene.setting().work;
     const std::uint64_t of_fragments = limits.of_fragment * scene.count();
     const Storage storage = storage_of(candidate.code());
     const Choices all = choices(candidate);

@@ -86,8 +86,8 @@ py::array as_array(const std::shared_ptr<const Image>& image) {
     return of_codes(type_of(image->format), shape, image->codes.data(), image->codes.size(), image);
 }
 
-py::array as_array(oracle::Target&& target) {
-    const auto kept = std::make_shared<const oracle::Target>(std::move(target));
+py::array as_array(oracle::TargetImage&& target) {
+    const auto kept = std::make_shared<const oracle::TargetImage>(std::move(target));
     std::vector<py::ssize_t> shape{kept->height, kept->width};
     if (kept->channels > 1) shape.push_back(kept->channels);
     return of_codes(type_of(kept->code), shape, kept->codes.data(), kept->codes.size(), kept);
@@ -119,12 +119,12 @@ Picture picture_of_array(const py::array& any, const std::string& meaning) {
     const bool is_wide = given.dtype().itemsize() == 4;
     const bool is_depth = meaning == "depth" || (meaning == "" && is_plane && is_wide);
     if (is_depth && !is_plane) throw InputError("picture", "shape", "(rows, columns) of a depth", shape_text(given));
-    oracle::Target target{.name = is_depth ? "depth" : "color",
-                          .meaning = is_depth ? oracle::Meaning::depth : oracle::Meaning::color,
-                          .code = code_of(given, is_depth),
-                          .width = static_cast<int>(given.shape(1)),
-                          .height = static_cast<int>(given.shape(0)),
-                          .channels = given.ndim() == 3 ? static_cast<int>(given.shape(2)) : 1};
+    oracle::TargetImage target{.name = is_depth ? "depth" : "color",
+                               .meaning = is_depth ? oracle::Meaning::depth : oracle::Meaning::color,
+                               .code = code_of(given, is_depth),
+                               .width = static_cast<int>(given.shape(1)),
+                               .height = static_cast<int>(given.shape(0)),
+                               .channels = given.ndim() == 3 ? static_cast<int>(given.shape(2)) : 1};
     const py::array array = py::array::ensure(given, py::array::c_style);
     const auto size = static_cast<std::size_t>(array.itemsize());
     target.codes.resize(static_cast<std::size_t>(array.size()));

@@ -36,7 +36,7 @@ template <class Owner>
 [[nodiscard]] py::array as_array(const std::shared_ptr<Owner>& owner, const Image& image) {
     return as_array(std::shared_ptr<const Image>{owner, &image});
 }
-[[nodiscard]] py::array as_array(oracle::Target&& target);
+[[nodiscard]] py::array as_array(oracle::TargetImage&& target);
 
 // A picture from an array with one, three or four channels; `meaning` is "color", "depth", or "" to derive it from the
 // array's shape and type.

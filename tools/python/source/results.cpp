@@ -158,9 +158,9 @@ void bind_compare(py::module_& module) {
         .def_property_readonly("arrays",
                                [](const Picture& picture) {
                                    py::dict all;
-                                   for (const oracle::Target& target : picture.targets)
+                                   for (const oracle::TargetImage& target : picture.targets)
                                        all[py::str((target.part.empty() ? "" : target.part + ".") + target.name)] =
-                                           as_array(oracle::Target{target});
+                                           as_array(oracle::TargetImage{target});
                                    return all;
                                })
         .def("__repr__", [](const Picture& picture) { return "<strata.Picture " + size_text(picture) + ">"; });

@@ -115,7 +115,7 @@ void draw_folders(const CompareOptions& options, const std::vector<oracle::PackP
 
 std::vector<std::string> names_of_targets(const oracle::Picture& picture) {
     std::vector<std::string> names;
-    for (const oracle::Target& target : picture.targets)
+    for (const oracle::TargetImage& target : picture.targets)
         if (std::ranges::find(names, target.name) == names.end()) names.push_back(target.name);
     return names;
 }
@@ -124,7 +124,7 @@ std::vector<std::string> names_of_targets(const std::vector<oracle::PackPictures
     oracle::Picture all;
     for (const oracle::PackPictures& pictures : packs)
         for (const oracle::PassPicture& pass : pictures.passes)
-            for (const oracle::Target& target : pass.targets.targets) all.targets.push_back({.name = target.name});
+            for (const oracle::TargetImage& target : pass.targets.targets) all.targets.push_back({.name = target.name});
     return names_of_targets(all);
 }
 

@@ -72,20 +72,20 @@ std::string description_of(const std::vector<oracle::PackComparison>& found) {
            (left_out > 0 ? "; " + std::to_string(left_out) + (left_out == 1 ? " is" : " are") + " not compared." : ".");
 }
 
-struct Verdict {
+struct ComparisonVerdict {
     std::string_view words;
     Paint paint;
 };
-constexpr Verdict verdicts[] = {{"equal", Paint::green},
-                                {"right", Paint::green},
-                                {"wrong", Paint::red},
-                                {"accepted", Paint::yellow},
-                                {"within the tolerance", Paint::yellow},
-                                {"different", Paint::red}};
+constexpr ComparisonVerdict verdicts[] = {{"equal", Paint::green},
+                                          {"right", Paint::green},
+                                          {"wrong", Paint::red},
+                                          {"accepted", Paint::yellow},
+                                          {"within the tolerance", Paint::yellow},
+                                          {"different", Paint::red}};
 
 // "equal", "different: 3 of 9 pixels differ", "dual: equal".
 std::string painted_line(const std::string& line) {
-    for (const Verdict& v : verdicts) {
+    for (const ComparisonVerdict& v : verdicts) {
         const std::string words(v.words), painted_words = painted(v.words, v.paint, Stream::output);
         if (line == words || line.starts_with(words + ":")) return painted_words + line.substr(words.size());
         if (line.ends_with(": " + words) && !line.starts_with(' '))

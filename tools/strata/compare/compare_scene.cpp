@@ -49,13 +49,13 @@ std::string camera_in_words(const RunOptions& run) {
     return fmt::format("--orbit {},{}", orbit.azimuth, orbit.elevation);
 }
 
-const oracle::Target& colors_of(const oracle::Picture& candidate) {
-    const auto found = std::ranges::find(candidate.targets, oracle::Meaning::color, &oracle::Target::meaning);
+const oracle::TargetImage& colors_of(const oracle::Picture& candidate) {
+    const auto found = std::ranges::find(candidate.targets, oracle::Meaning::color, &oracle::TargetImage::meaning);
     if (found == candidate.targets.end()) throw InputError(candidate.file, "targets", "colours", "none");
     return *found;
 }
 
-Session open_at_size(SceneQuestion& question, const oracle::Target& target, const std::string& file) {
+Session open_at_size(SceneQuestion& question, const oracle::TargetImage& target, const std::string& file) {
     RunOptions& run = question.run;
     if (!question.algorithm.empty()) run.algorithms = {to_algorithm(question.algorithm)};
     complete(run);
@@ -256,7 +256,7 @@ std::vector<std::string> forgotten(const SceneQuestion& question, const oracle::
 
 // The verdict on a picture with several samples per pixel.
 int compare_resolved(const SceneQuestion& question, const Session& session, const oracle::Picture& candidate) {
-    const oracle::Target& colors = colors_of(candidate);
+    const oracle::TargetImage& colors = colors_of(candidate);
     const oracle::RunInput input{session.scene.list,  session.view,           session.profile,
                                  question.run.render, sampling(question.run), question.run.scene_options.color_space};
     const oracle::SamplesVerdict verdict = [&] {
@@ -278,7 +278,7 @@ int compare_resolved(const SceneQuestion& question, const Session& session, cons
 namespace {
 
 oracle::verdict::PictureVerdict judged(const SceneQuestion& question, const oracle::RunInput& input,
-                                       const oracle::Target& colors) {
+                                       const oracle::TargetImage& colors) {
     Progress bar("verdict");
     return oracle::verdict::judge_picture(
         input, {.colors = colors,
@@ -291,7 +291,7 @@ oracle::verdict::PictureVerdict judged(const SceneQuestion& question, const orac
 
 // Whether a picture with decoded colours, or blended in linear light, is right with --color-space linear.
 std::string if_linear(SceneQuestion question, const oracle::verdict::Verdict& found, const oracle::Picture& candidate) {
-    const oracle::Target& colors = colors_of(candidate);
+    const oracle::TargetImage& colors = colors_of(candidate);
     using oracle::verdict::RuleKind;
     const auto is_of_light = [](const oracle::verdict::CheckedAccount& c) {
         return c.account.rules[0].kind == RuleKind::decoded || c.account.rules[0].kind == RuleKind::blended_linear;
@@ -309,7 +309,7 @@ std::string if_linear(SceneQuestion question, const oracle::verdict::Verdict& fo
 }  // namespace
 
 int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate) {
-    const oracle::Target& colors = colors_of(candidate);
+    const oracle::TargetImage& colors = colors_of(candidate);
     const Session session = open_at_size(question, colors, candidate.file);
     if (question.run.samples > 1) return compare_resolved(question, session, candidate);
     const pipeline::DrawList& list = session.scene.list;

@@ -9,14 +9,14 @@ namespace strata::tools {
 namespace {
 
 // Parses "30" or "0.02%" of all pixels.
-std::optional<oracle::Budget> to_budget(std::string_view text) {
+std::optional<oracle::PixelBudget> to_budget(std::string_view text) {
     if (!text.ends_with('%')) {
         const auto pixels = to_int<std::uint64_t>(text);
-        return pixels ? std::optional(oracle::Budget{.pixels = *pixels}) : std::nullopt;
+        return pixels ? std::optional(oracle::PixelBudget{.pixels = *pixels}) : std::nullopt;
     }
     const auto percent = to_number<double>(text.substr(0, text.size() - 1));
     if (!percent || *percent < 0 || *percent > 100) return std::nullopt;
-    return oracle::Budget{.share = *percent / 100};
+    return oracle::PixelBudget{.share = *percent / 100};
 }
 
 bool take_tolerance(std::string_view kind, std::string_view amount, oracle::Tolerances& tolerances) {
@@ -34,7 +34,7 @@ bool take_tolerance(std::string_view kind, std::string_view amount, oracle::Tole
           std::pair{"color-pixels", &Tolerances::color}, std::pair{"pixels", &Tolerances::pixels}})
         if (kind == name) {
             const auto found = to_budget(amount);
-            tolerances.*budget = found.value_or(oracle::Budget{});
+            tolerances.*budget = found.value_or(oracle::PixelBudget{});
             return found.has_value();
         }
     const auto codes = to_int<std::uint32_t>(amount);
@@ -92,7 +92,7 @@ void add_alpha_option(CLI::App& app, std::optional<oracle::AlphaForm>& form) {
 
 void state_alpha(oracle::Picture& picture, const std::optional<oracle::AlphaForm>& form) {
     if (!form) return;
-    for (oracle::Target& target : picture.targets)
+    for (oracle::TargetImage& target : picture.targets)
         if (target.meaning == oracle::Meaning::color) target.alpha_form = *form;
 }
 

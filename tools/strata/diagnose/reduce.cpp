@@ -30,7 +30,8 @@ namespace strata::tools {
 
 namespace {
 
-const std::vector<Choice<oracle::Frame>> frames{{"cut", oracle::Frame::cut}, {"whole", oracle::Frame::whole}};
+const std::vector<Choice<oracle::FrameExtent>> frames{{"cut", oracle::FrameExtent::cut},
+                                                      {"whole", oracle::FrameExtent::whole}};
 
 struct ReduceOptions {
     std::string pack, command, ending = ".exr", output, algorithm;

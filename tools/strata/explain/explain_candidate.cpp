@@ -9,7 +9,7 @@ namespace strata::tools {
 
 int explain_candidate(CandidateQuestion question) {
     const oracle::Picture picture = oracle::read_picture(question.candidate);
-    const oracle::Target& colors = colors_of(picture);
+    const oracle::TargetImage& colors = colors_of(picture);
     if (question.x >= colors.width || question.y >= colors.height)
         throw CLI::ValidationError("--pixel", "expected a pixel from 0,0 to " + std::to_string(colors.width - 1) + "," +
                                                   std::to_string(colors.height - 1) + ", found " +

@@ -9,15 +9,15 @@ namespace strata::tools {
 
 namespace {
 
-struct Group {
+struct OptionGroup {
     std::string title;
     HelpDetail shown;
     std::vector<std::string> names;
 };
 
 // The groups of options in the order of --help. Options without a group are listed under "Options".
-const std::vector<Group>& groups() {
-    static const std::vector<Group> all{
+const std::vector<OptionGroup>& groups() {
+    static const std::vector<OptionGroup> all{
         {"What is drawn",
          HelpDetail::usual,
          {"scene", "color-space", "no-light", "algorithm", "profile", "origin", "depth-format", "from"}},
@@ -53,8 +53,8 @@ const std::vector<Group>& groups() {
     return all;
 }
 
-const Group* group_of(const CLI::Option& option) {
-    for (const Group& group : groups())
+const OptionGroup* group_of(const CLI::Option& option) {
+    for (const OptionGroup& group : groups())
         for (const std::string& name : group.names)
             if (option.check_lname(name)) return &group;
     return nullptr;
@@ -75,7 +75,7 @@ std::string help_of(CLI::App& command, HelpDetail shown) {
     std::size_t hidden = 0;
     for (CLI::Option* option : command.get_options()) {
         if (option->get_positional() || option->get_group().empty()) continue;
-        const Group* group = group_of(*option);
+        const OptionGroup* group = group_of(*option);
         if (group == nullptr) continue;
         const bool is_hidden = group->shown == HelpDetail::all && shown == HelpDetail::usual;
         option->group(is_hidden ? "" : group->title);

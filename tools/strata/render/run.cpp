@@ -128,7 +128,7 @@ pipeline::View view_named(const std::string& name, const scenes::Scene& scene, d
     throw CLI::ValidationError("--camera", "expected " + cameras + ", found " + found_but_near(name, names));
 }
 
-void take_size(RunOptions& options, const oracle::Target& picture, const std::string& file) {
+void take_size(RunOptions& options, const oracle::TargetImage& picture, const std::string& file) {
     peeling::RenderOptions& render = options.render;
     const auto text = [](int width, int height) { return fmt::format("{}x{}", width, height); };
     if (options.states_size && (render.width != picture.width || render.height != picture.height))
@@ -288,11 +288,11 @@ scenes::Attributes attributes_of(const std::string& verb, const RunOptions& opti
             {"camera", one_line(scenes::to_json(finished.session.view))}};
 }
 
-bool Output::is_piped() const { return piped == StandardOutput::possibly && scenes::is_standard_output(path); }
+bool OutputFile::is_piped() const { return piped == StandardOutput::possibly && scenes::is_standard_output(path); }
 
 namespace {
 
-void check_output(const Output& output) {
+void check_output(const OutputFile& output) {
     if (output.is_piped()) {
         if (isatty(STDOUT_FILENO) == 1)
             throw CLI::ValidationError(
@@ -320,9 +320,9 @@ std::filesystem::path place_of(const std::string& path) {
 
 }  // namespace
 
-void check_outputs(const std::vector<Output>& outputs) {
-    std::map<std::filesystem::path, const Output*> places;
-    for (const Output& output : outputs) {
+void check_outputs(const std::vector<OutputFile>& outputs) {
+    std::map<std::filesystem::path, const OutputFile*> places;
+    for (const OutputFile& output : outputs) {
         if (output.path.empty()) continue;
         check_output(output);
         const auto [found, is_new] = places.emplace(place_of(output.path), &output);
@@ -332,7 +332,7 @@ void check_outputs(const std::vector<Output>& outputs) {
         }
     }
     const bool has_exr =
-        std::ranges::any_of(outputs, [](const Output& output) { return output.path.ends_with(".exr"); });
+        std::ranges::any_of(outputs, [](const OutputFile& output) { return output.path.ends_with(".exr"); });
     if (has_exr) static_cast<void>(scenes::exr::start_threads());
 }
 

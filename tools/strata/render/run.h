@@ -8,7 +8,7 @@
 #include "tools/strata/options/options.h"
 
 namespace strata::oracle {
-struct Target;
+struct TargetImage;
 }
 
 namespace strata::peeling {
@@ -35,7 +35,7 @@ struct Session {
 [[nodiscard]] Session open_session(RunOptions& options);
 
 // Sets the size to the picture's. InputError names its file if --size states another one.
-void take_size(RunOptions& options, const oracle::Target& picture, const std::string& file);
+void take_size(RunOptions& options, const oracle::TargetImage& picture, const std::string& file);
 
 // One algorithm that has run. The references are valid only while the Writer runs.
 struct CompletedRun {
@@ -64,7 +64,7 @@ using Writer = std::function<void(const CompletedRun&)>;  // writes one algorith
 
 // An output file of a command; an empty path means none. `StandardOutput` says whether it may be "-", standard output.
 enum class StandardOutput : std::uint8_t { never, possibly };
-struct Output {
+struct OutputFile {
     std::string option, path;
     std::vector<std::string> endings;
     StandardOutput piped = StandardOutput::never;
@@ -73,6 +73,6 @@ struct Output {
 
 // Throws CLI::ValidationError unless each path has one of the allowed endings and is in a folder that exists, and no
 // two paths name the same file.
-void check_outputs(const std::vector<Output>& outputs);
+void check_outputs(const std::vector<OutputFile>& outputs);
 
 }  // namespace strata::tools

@@ -13,7 +13,7 @@ using Column = std::vector<Texel>;  // the layers of one pixel, near to far
 
 // A file with layers of one pixel each.
 Picture layered(const Column& column, std::size_t parts, const std::vector<std::uint32_t>& depths = {}) {
-    std::vector<Target> targets;
+    std::vector<TargetImage> targets;
     for (std::size_t i = 0; i < parts; ++i) {
         const Texel texel = i < column.size() ? column[i] : Texel{0, 0, 0, 0};
         const std::string part = "layer.00" + std::to_string(i);

@@ -148,7 +148,7 @@ TEST_CASE("JUnit skips the kinds that the compared targets cannot show") {
     std::vector<std::string> flat = layers;
     flat.push_back("depth");
     CHECK(skipped(ellipse()) == flat);  // colour only, with a known background
-    Target depth = make_target("", Code::unorm24, 40, 30, 1, ellipse_texel);
+    TargetImage depth = make_target("", Code::unorm24, 40, 30, 1, ellipse_texel);
     depth.name = "depth";
     depth.meaning = Meaning::depth;
     CHECK(skipped(make_picture({make_target("", Code::unorm8, 40, 30, 4, ellipse_texel), depth})) == layers);
@@ -195,10 +195,10 @@ TEST_CASE(
 
 // 18 of 30,000 pixels are far off, as after a dropped fragment; all others are at most one code off.
 TEST_CASE("a budget accepts its number of pixels for any difference and reports how many were used") {
-    const Target right = make_target("", Code::unorm8, 200, 150, 4, [](int x, int y) {
+    const TargetImage right = make_target("", Code::unorm8, 200, 150, 4, [](int x, int y) {
         return Texel{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 30, 255};
     });
-    Target noisy = right;
+    TargetImage noisy = right;
     for (std::size_t p = 0; p < noisy.pixels(); p += 7) noisy.codes[4 * p + 2] += 1;
     for (std::size_t p = 0; p < 18; ++p) noisy.codes[4 * (1600 * p + 1000)] ^= 0xff;
     const Picture reference = make_picture({right}), candidate = make_picture({noisy});

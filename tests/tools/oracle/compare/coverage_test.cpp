@@ -98,7 +98,7 @@ TEST_CASE("a border with random offsets is reported as snapping and a hole far f
 
 TEST_CASE("a pixel is drawn if its depth or its alpha or its colour differs from the background") {
     const Picture reference = ellipse();
-    const Pair same{&reference.targets[0], &reference.targets[0]};
+    const TargetPair same{&reference.targets[0], &reference.targets[0]};
     const auto by_color = drawn(std::span{&same, 1});
     REQUIRE(by_color);
     int wrong = 0;
@@ -109,18 +109,18 @@ TEST_CASE("a pixel is drawn if its depth or its alpha or its colour differs from
     const Picture deep = make_picture({make_target("", Code::single, 40, 30, 1, [](int x, int y) -> Texel {
         return {is_in_ellipse(x, y) ? 0x3f000000u : 0x3f800000u, 0, 0, 0};
     })});
-    const Pair depth{&deep.targets[0], &deep.targets[0]};
+    const TargetPair depth{&deep.targets[0], &deep.targets[0]};
     CHECK(drawn(std::span{&depth, 1})->candidate == by_color->reference);
 
     const Picture clear = make_picture({make_target("", Code::unorm8, 40, 30, 4, [](int x, int y) -> Texel {
         return {1, 2, 3, is_in_ellipse(x, y) ? 9u : 0u};
     })});
-    const Pair alpha{&clear.targets[0], &clear.targets[0]};
+    const TargetPair alpha{&clear.targets[0], &clear.targets[0]};
     CHECK(drawn(std::span{&alpha, 1})->reference == by_color->reference);
 
     const Picture noise = make_picture({make_target("", Code::unorm8, 40, 30, 3, [](int x, int y) -> Texel {
         return {static_cast<std::uint32_t>(x * 6), static_cast<std::uint32_t>(y * 8), 0, 0};
     })});
-    const Pair full{&noise.targets[0], &noise.targets[0]};
+    const TargetPair full{&noise.targets[0], &noise.targets[0]};
     CHECK_FALSE(drawn(std::span{&full, 1}));
 }

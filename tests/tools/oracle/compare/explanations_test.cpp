@@ -29,7 +29,7 @@ double decoded(double e) { return e <= 0.04045 ? e / 12.92 : std::pow((e + 0.055
 std::string best(const std::function<Texel(int x, int y)>& candidate) {
     const Picture mine = make_picture({make_target("", Code::unorm8, 40, 30, 4, spread)});
     const Picture theirs = make_picture({make_target("", Code::unorm8, 40, 30, 4, candidate)});
-    const Pair pair{&mine.targets[0], &theirs.targets[0]};
+    const TargetPair pair{&mine.targets[0], &theirs.targets[0]};
     const auto found = explanations(std::span{&pair, 1});
     if (found.empty()) return "";
     return found[0].mistake + (found[0].is_whole() ? "" : " in part");
@@ -83,7 +83,7 @@ TEST_CASE("a flip of a part of the picture explains that part and reports the pi
     const Picture mine = make_picture({make_target("", Code::unorm8, 40, 30, 4, spread)});
     const Picture theirs = make_picture({make_target(
         "", Code::unorm8, 40, 30, 4, [](int x, int y) { return x < 10 ? spread(x, 29 - y) : spread(x, y); })});
-    const Pair pair{&mine.targets[0], &theirs.targets[0]};
+    const TargetPair pair{&mine.targets[0], &theirs.targets[0]};
     // 300 pixels are explained and 900 equal ones contradict: not reported.
     CHECK(explanations(std::span{&pair, 1}).empty());
 }
@@ -96,7 +96,7 @@ TEST_CASE("reversed depths and 16-bit depths are explained") {
     };
     const Picture mine = depth([](std::uint32_t code) { return code; });
     const auto best_of = [&](const Picture& theirs) {
-        const Pair pair{&mine.targets[0], &theirs.targets[0]};
+        const TargetPair pair{&mine.targets[0], &theirs.targets[0]};
         const auto found = explanations(std::span{&pair, 1});
         return found.empty() ? "" : found[0].mistake;
     };

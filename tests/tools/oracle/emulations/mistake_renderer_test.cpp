@@ -68,14 +68,14 @@ TEST_CASE("a mistake that is a choice of options makes the picture of those opti
 
 TEST_CASE("a mistake of the finished picture moves or changes its pixels and nothing else") {
     const SceneFixture bench{"showroom.dual"};
-    const Target& right = bench.mistake_renderer.right().targets[0];
+    const TargetImage& right = bench.mistake_renderer.right().targets[0];
     const Picture flipped = bench.with("flipped_rows"), blue = bench.with("red_for_blue"),
                   moved = bench.with("one_pixel_right");
     int wrong = 0;
     for (int y = 0; y < right.height; ++y)
         for (int x = 0; x < right.width; ++x)
             for (int c = 0; c < 4; ++c) {
-                const auto at = [&](const Target& t, int px, int py, int channel) {
+                const auto at = [&](const TargetImage& t, int px, int py, int channel) {
                     return t.codes[static_cast<std::size_t>((py * right.width + px) * 4 + channel)];
                 };
                 wrong += at(flipped.targets[0], x, y, c) != at(right, x, right.height - 1 - y, c);
@@ -103,7 +103,7 @@ TEST_CASE("layers blended without transmittance add up") {
         for (std::size_t c = 0; c < 3; ++c) sum[c] += once[c] * once[3];
     const MistakeRenderer mistake_renderer{opened.input(), *opened.algorithm};
     const Picture picture = mistake_renderer.with(*find_mistake("under_without_transmittance")).value();
-    const Target& colors = picture.targets[0];
+    const TargetImage& colors = picture.targets[0];
     const std::size_t centre = static_cast<std::size_t>(colors.height / 2 * colors.width + colors.width / 2);
     for (int c = 0; c < 3; ++c) CHECK(colors.value_at(centre, c) == double{sum[c]});
 }
@@ -204,9 +204,9 @@ TEST_CASE("a picture that is resolved wrongly is sample 0 or the mean of decoded
     peeling::SampledRenderer renderer{
         opened.scene.list, opened.view, opened.profile, opened.options, {.samples = samples}};
     std::vector<pipeline::Image> images;
-    const Target right = as_target(renderer.render(*opened.algorithm, {}, &images).frame.color, "color");
-    const Target shown = mistake_renderer.with(*find_mistake("sample_0_shown")).value().targets[0];
-    const Target linear = mistake_renderer.with(*find_mistake("resolved_in_linear_light")).value().targets[0];
+    const TargetImage right = as_target(renderer.render(*opened.algorithm, {}, &images).frame.color, "color");
+    const TargetImage shown = mistake_renderer.with(*find_mistake("sample_0_shown")).value().targets[0];
+    const TargetImage linear = mistake_renderer.with(*find_mistake("resolved_in_linear_light")).value().targets[0];
     CHECK(shown.codes == as_target(images[0], "color").codes);
     int lighter = 0, darker = 0, wrong = 0;
     for (std::size_t i = 0; i < right.codes.size(); ++i) {

@@ -16,7 +16,7 @@ namespace {
 constexpr int limit = 60;  // passes after which an endless peel gives up
 
 // One target per sample, as candidate_pictures reads them.
-void add_target(const NamedImage& named, std::vector<Target>& targets) {
+void add_target(const NamedImage& named, std::vector<TargetImage>& targets) {
     const auto count = static_cast<std::size_t>(named.image.samples);
     const auto channels = static_cast<std::size_t>(named.image.channels());
     for (std::size_t sample = 0; sample < count; ++sample) {
@@ -48,7 +48,7 @@ std::vector<PassPicture> passes_with(const OpenScene& opened, const char* mistak
     passes(
         {*e.list, e.view, e.profile, e.options, e.sampling}, *e.algorithm,
         [&](PassReport&& pass) {
-            if (pass.kind == PassKind::published) return;
+            if (pass.kind == ReportedPassKind::published) return;
             all.push_back({.number = pass.number, .iteration = pass.iteration, .has_own = true});
             for (const NamedImage& target : pass.targets) add_target(target, all.back().targets.targets);
         },
@@ -90,7 +90,7 @@ TEST_CASE("passes of several samples are compared sample by sample and name a mi
     REQUIRE(whole);
     CHECK(whole->is_whole());
     CHECK(whole->targets >= 4 * static_cast<int>(passes.size()));
-    Target& last_sample = passes[2].targets.targets.back();
+    TargetImage& last_sample = passes[2].targets.targets.back();
     REQUIRE(last_sample.name.ends_with(".sample3"));
     last_sample.codes[7] ^= 1;
     CHECK(bench.mistake_renderer.compare_passes({}, passes)->first_unlike == 2);
@@ -151,7 +151,7 @@ TEST_CASE("a mistake that explains the picture but whose passes differ as early 
     const MistakeImages mistake_images{bench.mistake_renderer};
     std::vector<PassPicture> passes = passes_with(bench.opened, nullptr);
     for (PassPicture& pass : passes)
-        for (Target& target : pass.targets.targets)
+        for (TargetImage& target : pass.targets.targets)
             if (target.meaning == Meaning::color) target.codes[0] ^= 0xff;
     const Diagnosis found = diagnosed(mistake_images, bench.with("red_for_blue"), passes);
     CHECK(found.conclusion == Conclusion::unknown_mistake);
@@ -164,7 +164,7 @@ TEST_CASE("a few pixels of the first wrong pass do not contradict the mistake th
     const MistakeImages mistake_images{bench.mistake_renderer};
     for (const bool are_many : {false, true}) {
         std::vector<PassPicture> passes = passes_with(bench.opened, "half_pixel_right");
-        for (Target& target : passes[0].targets.targets)
+        for (TargetImage& target : passes[0].targets.targets)
             for (std::size_t i = 0; i < (are_many ? target.codes.size() : 4); ++i) target.codes[i] ^= 0x7f0000ff;
         const Diagnosis found = diagnosed(mistake_images, bench.with("half_pixel_right"), passes);
         CHECK(found.passes_contradict == are_many);

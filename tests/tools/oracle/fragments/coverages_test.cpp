@@ -14,7 +14,7 @@ using namespace strata::test;
 
 namespace {
 
-oracle::Target picture_by(OpenedScene scene, const pipeline::DeviceProfile& profile) {
+oracle::TargetImage picture_by(OpenedScene scene, const pipeline::DeviceProfile& profile) {
     scene.profile = profile;
     return *scene.picture("front_to_back", pipeline::Format::rgba8);
 }
@@ -26,8 +26,8 @@ TEST_CASE("a rasterizer that snaps to sixteenths of a pixel is right and its pix
     for (pipeline::Material& material : opened.scene.list.materials) material.unlit = true;
     pipeline::DeviceProfile coarse = opened.profile;
     coarse.raster.subpixel_bits = 4;
-    const oracle::Target picture = picture_by(opened, coarse);
-    const oracle::Target exact = picture_by(opened, opened.profile);
+    const oracle::TargetImage picture = picture_by(opened, coarse);
+    const oracle::TargetImage exact = picture_by(opened, opened.profile);
     REQUIRE(picture.codes != exact.codes);
     const Verdict found = judged(opened, picture);
     CHECK(found.is_right);

@@ -56,7 +56,7 @@ std::string line_on(const std::string& planes, const ChangeList& change, State e
     opened.options.depth = pipeline::DepthFormat::d16;
     for (pipeline::Mesh& mesh : opened.scene.list.meshes)
         for (Rgba& color : mesh.colors) color[3] = 0.5f;
-    const oracle::Target picture = picture_of_port(opened, port_of_codes(Order::over), change);
+    const oracle::TargetImage picture = picture_of_port(opened, port_of_codes(Order::over), change);
     const PictureVerdict found = judge_picture(opened.input(), {.colors = picture});
     const std::string line = first_line(found.found, opened.scene.list);
     INFO(planes << ": " << to_text(found.found, opened.scene.list));

@@ -17,7 +17,7 @@ struct Counted {
     std::uint64_t work = 0;
 };
 
-Counted counted(const OpenedScene& opened, const oracle::Target& picture, const SearchLimits& limits = {}) {
+Counted counted(const OpenedScene& opened, const oracle::TargetImage& picture, const SearchLimits& limits = {}) {
     SceneFragments fragments = opened.fragments();
     Verdict verdict = judge(fragments, Colors{picture}, limits);
     return {std::move(verdict), fragments.setting().work->done()};
@@ -35,7 +35,7 @@ Hypothesis port_that_cuts() {
 }  // namespace
 
 TEST_CASE("a batch is completed and no further one is started after the limit is reached") {
-    Work work;
+    WorkCounter work;
     work.allow(100);
     std::atomic<int> begun = 0;
     const auto act = [&](std::size_t) {
@@ -56,7 +56,7 @@ TEST_CASE("a batch is completed and no further one is started after the limit is
 TEST_CASE(
     "the search for one pixel of a float picture stays within the limit with the same count on any number of threads") {
     OpenedScene opened{"teapot", 24, 18};
-    oracle::Target picture = *opened.picture("front_to_back", pipeline::Format::rgba32f);
+    oracle::TargetImage picture = *opened.picture("front_to_back", pipeline::Format::rgba32f);
     std::uint32_t& red = picture.codes[std::size_t{4} * (9 * 24 + 12)];
     red = std::bit_cast<std::uint32_t>(std::bit_cast<float>(red) * 0.5f + 0.125f);
     const Counted one = counted(opened, picture);
@@ -73,7 +73,7 @@ TEST_CASE("a stopped search reports no mistake and says that it was stopped") {
     const auto lose_second = [](PortList& l) {
         if (l.visible.size() > 1) l.visible.erase(l.visible.begin() + 1);
     };
-    const oracle::Target picture = picture_of_port(opened, port_of_codes(Order::under), lose_second);
+    const oracle::TargetImage picture = picture_of_port(opened, port_of_codes(Order::under), lose_second);
     const Counted whole = counted(opened, picture), stopped = counted(opened, picture, nothing);
     CHECK_FALSE(whole.verdict.is_stopped);
     CHECK_FALSE(whole.verdict.explanations.empty());
@@ -87,7 +87,7 @@ TEST_CASE("a stopped search reports no mistake and says that it was stopped") {
 
 TEST_CASE("a picture with wide intervals has no verdict if the search is stopped") {
     const OpenedScene opened{"hard:case=inside-out", 8, 8};
-    const oracle::Target picture = picture_of_port(opened, port_that_cuts(), {});
+    const oracle::TargetImage picture = picture_of_port(opened, port_that_cuts(), {});
     // A port that cuts the blends of so many layers needs more codes than are called right.
     CHECK(counted(opened, picture).verdict.doubt.find("codes allowed, where a right port needs at most 5") !=
           std::string::npos);
@@ -100,7 +100,7 @@ TEST_CASE("a picture with wide intervals has no verdict if the search is stopped
 
 TEST_CASE("a picture with intervals of two codes is not decided either if the search is stopped") {
     const OpenedScene opened{"random:seed=3,triangles=400", 32, 24};
-    const oracle::Target picture = *opened.picture("dual", pipeline::Format::rgba8);
+    const oracle::TargetImage picture = *opened.picture("dual", pipeline::Format::rgba8);
     const Verdict whole = counted(opened, picture).verdict;
     CHECK(whole.is_right);
     CHECK_FALSE(whole.is_stopped);

@@ -67,15 +67,15 @@ TEST_CASE("every algorithm reports as many passes as it counts with every target
         int geometry = 0, screen = 0;
         std::set<std::string> unnamed;
         for (const PassReport& pass : all) {
-            geometry += pass.kind == PassKind::geometry ? 1 : 0;
-            screen += pass.kind == PassKind::full_screen ? 1 : 0;
+            geometry += pass.kind == ReportedPassKind::geometry ? 1 : 0;
+            screen += pass.kind == ReportedPassKind::full_screen ? 1 : 0;
             for (const NamedImage& target : pass.targets)
                 if (target.name.starts_with("target.")) unnamed.insert(target.name);
         }
         CHECK(geometry == usual.frame.passes.geometry);
         CHECK(screen == usual.frame.passes.full_screen);
         CHECK(unnamed.empty());
-        CHECK(all.back().kind == PassKind::published);
+        CHECK(all.back().kind == ReportedPassKind::published);
         CHECK(all.back().targets.at(0).image == usual.frame.color);
     }
     CHECK(ran >= 15);
@@ -92,7 +92,7 @@ TEST_CASE("after pass k of a dual peel the min-max depths are the k-th nearest a
             depths[fragment.pixel].insert(fragment.shader_z);
     std::size_t peeled = 0, wrong = 0, most = 0;
     for (const PassReport& pass : all) {
-        if (pass.kind != PassKind::geometry) continue;
+        if (pass.kind != ReportedPassKind::geometry) continue;
         const pipeline::Image& min_max = image_of(pass, pass.writes.at(0));
         for (std::size_t p = 0; p < depths.size(); ++p) {
             std::vector<float> left(depths[p].begin(), depths[p].end());

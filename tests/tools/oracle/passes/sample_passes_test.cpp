@@ -68,7 +68,7 @@ pipeline::Image sample_image(const pipeline::Image& all, int sample) {
 // The passes of the loop: those at the end, which composite once, have another number where a frame ends earlier.
 std::size_t passes_of_loop(const std::vector<PassReport>& passes) {
     const auto last = std::find_if(passes.rbegin(), passes.rend(),
-                                   [](const PassReport& pass) { return pass.kind == PassKind::geometry; });
+                                   [](const PassReport& pass) { return pass.kind == ReportedPassKind::geometry; });
     return static_cast<std::size_t>(passes.rend() - last);
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("sample s of every target is that of the frame of sample s alone") {
                     CHECK(joint[k].tallied == tallied);
                     if (!joint[k].queries.empty()) CHECK(joint[k].queries.at(0).count == counted);
                 }
-                REQUIRE(joint.back().kind == PassKind::published);
+                REQUIRE(joint.back().kind == ReportedPassKind::published);
                 CHECK(joint.back().targets.at(0).image ==
                       resolved_frame(l, algorithm, {.samples = samples}).frame.color);
             }
@@ -145,7 +145,7 @@ TEST_CASE("the passes of several samples publish the picture of every algorithm 
         }
         const auto all = sampled_passes(l, algorithm, sampling);
         CHECK(all.back().targets.at(0).image == result.frame.color);
-        CHECK(std::ranges::count(all, PassKind::geometry, &PassReport::kind) == result.frame.passes.geometry);
+        CHECK(std::ranges::count(all, ReportedPassKind::geometry, &PassReport::kind) == result.frame.passes.geometry);
         return 1;
     };
     int ran = 0;

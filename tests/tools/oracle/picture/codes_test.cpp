@@ -19,8 +19,8 @@ TEST_CASE("an 8-bit and a 16-bit code are equal exactly where their quotients ar
     for (std::uint64_t a = 0; a < 256; ++a)
         for (std::uint64_t b = 0; b < 65536; ++b) {
             const bool equal = a * 65535 == b * 255;
-            const Stored narrow{Code::unorm8, static_cast<std::uint32_t>(a)};
-            const Stored wide{Code::unorm16, static_cast<std::uint32_t>(b)};
+            const StoredCode narrow{Code::unorm8, static_cast<std::uint32_t>(a)};
+            const StoredCode wide{Code::unorm16, static_cast<std::uint32_t>(b)};
             if (is_equal(narrow, wide) != equal || is_equal(wide, narrow) != equal) ++wrong;
         }
     CHECK(wrong == 0);

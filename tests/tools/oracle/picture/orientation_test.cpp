@@ -44,7 +44,7 @@ TEST_CASE("a TIFF is read upright whatever its orientation is") {
                  {7, 2, {6, 3, 5, 2, 4, 1}}, {8, 2, {3, 6, 2, 5, 1, 4}}};
     for (const auto& c : cases) {
         const OwnFile file{".tif", tiff(3, 2, c.orientation, codes)};
-        const Target target = read_picture(file.path()).targets.at(0);
+        const TargetImage target = read_picture(file.path()).targets.at(0);
         INFO("orientation " << c.orientation);
         CHECK(target.width == c.width);
         CHECK(target.height == 6 / c.width);

@@ -19,7 +19,7 @@ Texel texel(int x, int y) {
             static_cast<std::uint32_t>(7 * x * y), 255};
 }
 
-Target made(int w, int h, const std::function<Texel(int x, int y)>& of) {
+TargetImage made(int w, int h, const std::function<Texel(int x, int y)>& of) {
     return make_target("", Code::unorm8, w, h, 4, of);
 }
 

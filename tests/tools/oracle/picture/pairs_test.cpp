@@ -15,13 +15,13 @@ using ChannelCodes = std::vector<std::uint32_t>;
 namespace {
 
 Picture one(int channels, const ChannelCodes& codes, bool is_grey = false, AlphaForm form = AlphaForm::unknown) {
-    Target target{.name = "color",
-                  .width = static_cast<int>(codes.size()) / channels,
-                  .height = 1,
-                  .channels = channels,
-                  .codes = codes,
-                  .is_grey = is_grey,
-                  .alpha_form = form};
+    TargetImage target{.name = "color",
+                       .width = static_cast<int>(codes.size()) / channels,
+                       .height = 1,
+                       .channels = channels,
+                       .codes = codes,
+                       .is_grey = is_grey,
+                       .alpha_form = form};
     return {"picture", {std::move(target)}};
 }
 

@@ -2,15 +2,15 @@
 
 namespace strata::test {
 
-oracle::Target make_target(const std::string& part, oracle::Code code, int width, int height, int channels,
-                           const std::function<Texel(int x, int y)>& texel) {
-    oracle::Target target{.part = part,
-                          .name = channels == 1 ? "depth" : "color",
-                          .meaning = channels == 1 ? oracle::Meaning::depth : oracle::Meaning::color,
-                          .code = code,
-                          .width = width,
-                          .height = height,
-                          .channels = channels};
+oracle::TargetImage make_target(const std::string& part, oracle::Code code, int width, int height, int channels,
+                                const std::function<Texel(int x, int y)>& texel) {
+    oracle::TargetImage target{.part = part,
+                               .name = channels == 1 ? "depth" : "color",
+                               .meaning = channels == 1 ? oracle::Meaning::depth : oracle::Meaning::color,
+                               .code = code,
+                               .width = width,
+                               .height = height,
+                               .channels = channels};
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const Texel codes = texel(x, y);
@@ -19,7 +19,7 @@ oracle::Target make_target(const std::string& part, oracle::Code code, int width
     return target;
 }
 
-oracle::Picture make_picture(std::vector<oracle::Target> targets) { return {"made.png", std::move(targets)}; }
+oracle::Picture make_picture(std::vector<oracle::TargetImage> targets) { return {"made.png", std::move(targets)}; }
 
 bool is_in_ellipse(double x, double y) {
     const double u = (x + 0.5 - 19.3) / 13.1, v = (y + 0.5 - 15.2) / 9.7;

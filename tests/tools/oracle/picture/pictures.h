@@ -11,9 +11,9 @@ namespace strata::test {
 using Texel = std::array<std::uint32_t, 4>;
 
 // One target; the codes of pixel (x, y) are texel(x, y).
-[[nodiscard]] oracle::Target make_target(const std::string& part, oracle::Code code, int width, int height,
-                                         int channels, const std::function<Texel(int x, int y)>& texel);
-[[nodiscard]] oracle::Picture make_picture(std::vector<oracle::Target> targets);
+[[nodiscard]] oracle::TargetImage make_target(const std::string& part, oracle::Code code, int width, int height,
+                                              int channels, const std::function<Texel(int x, int y)>& texel);
+[[nodiscard]] oracle::Picture make_picture(std::vector<oracle::TargetImage> targets);
 
 // 40 x 30 pixels of 8-bit colours with alpha 255: an ellipse of many colours on (10, 20, 30).
 [[nodiscard]] bool is_in_ellipse(double x, double y);

@@ -47,7 +47,7 @@ TEST_CASE("a deep part becomes layers from near to far and pixels with fewer sam
     REQUIRE(layers.size() == 6);
     const float expected[3][4] = {{0.2f, 0, 0.5f, 0.6f}, {0.3f, 0, 0.4f, 0}, {0.1f, 0, 0, 0}};
     for (std::size_t layer = 0; layer < 3; ++layer) {
-        const Target &color = layers[2 * layer], &depth = layers[2 * layer + 1];
+        const TargetImage &color = layers[2 * layer], &depth = layers[2 * layer + 1];
         CHECK(color.part == "layer.00" + std::to_string(layer));
         CHECK(color.channels == 2);
         CHECK(color.meaning == Meaning::color);

@@ -61,7 +61,7 @@ TEST_CASE("a 16-bit PNG keeps all bits and its number of channels") {
     const OwnFile rgb{".png", png(2, 1, 16, 2, "\0\x12\x34\x00\x01\xff\xff\x80\x00\x7f\xff\x00\x00"s)};
     const Picture picture = read_picture(rgb.path());
     REQUIRE(picture.targets.size() == 1);
-    const Target& target = picture.targets[0];
+    const TargetImage& target = picture.targets[0];
     CHECK(target.code == Code::unorm16);
     CHECK(target.channels == 3);
     CHECK(target.codes == std::vector<std::uint32_t>{0x1234, 0x0001, 0xffff, 0x8000, 0x7fff, 0x0000});
@@ -76,13 +76,13 @@ TEST_CASE("a NumPy array is read in its own type and shape") {
     using namespace std::string_literals;
     const OwnFile words{".npy", npy("{'descr': '<u4', 'fortran_order': False, 'shape': (1, 2), }\n",
                                     "\x01\x02\x03\x04\xff\xff\xff\xff"s)};
-    const Target depth = read_picture(words.path()).targets[0];
+    const TargetImage depth = read_picture(words.path()).targets[0];
     CHECK(depth.code == Code::integer);
     CHECK(depth.meaning == Meaning::depth);
     CHECK(depth.codes == std::vector<std::uint32_t>{0x04030201, 0xffffffff});
     const OwnFile halves{".npy", npy("{'descr': '<f2', 'fortran_order': False, 'shape': (2, 1, 2), }\n",
                                      "\x00\x3c\x00\x38\x00\x00\x00\x80"s)};
-    const Target color = read_picture(halves.path()).targets[0];
+    const TargetImage color = read_picture(halves.path()).targets[0];
     CHECK(color.width == 1);
     CHECK(color.height == 2);
     CHECK(color.channels == 2);
@@ -168,17 +168,17 @@ TEST_CASE("PPM PGM TGA and BMP files have the codes of their bytes with the top 
         return picture.targets[0];
     };
     const Codes expected{1, 2, 3, 40, 50, 60, 7, 8, 9, 100, 110, 120};
-    const Target ppm = read(".ppm", "P6\n2 2\n255\n\x01\x02\x03\x28\x32\x3c\x07\x08\x09\x64\x6e\x78"s);
+    const TargetImage ppm = read(".ppm", "P6\n2 2\n255\n\x01\x02\x03\x28\x32\x3c\x07\x08\x09\x64\x6e\x78"s);
     CHECK(ppm.codes == expected);
     CHECK(ppm.channels == 3);
     CHECK(ppm.alpha_form == AlphaForm::straight);
-    const Target wide = read(".PPM", "P6 1 1 65535\n\x12\x34\x00\x01\xff\xff"s);
+    const TargetImage wide = read(".PPM", "P6 1 1 65535\n\x12\x34\x00\x01\xff\xff"s);
     CHECK(wide.code == Code::unorm16);
     CHECK(wide.codes == Codes{0x1234, 1, 0xffff});
     CHECK(read(".pgm", "P5\n# made by hand\n3 1\n1023\n\x00\x01\x02\x00\x03\xff"s).codes == Codes{64, 32800, 65535});
     CHECK(read(".pgm", "P2 4 1 7 0 1 6 7\n"s).codes == Codes{0, 36, 219, 255});
     CHECK(read(".ppm", "P3 1 1 300 300 150 1 "s).codes == Codes{65535, 32768, 218});
-    const Target pgm = read(".pgm", "P5 2 1 255\n\x05\xff"s);
+    const TargetImage pgm = read(".pgm", "P5 2 1 255\n\x05\xff"s);
     CHECK(pgm.is_grey);
     CHECK(pgm.codes == Codes{5, 255});
     // 18 bytes of header: uncompressed (2) or run-length coded (10), 2 x 2 pixels of 24 bits, top row first (0x20);
@@ -200,7 +200,7 @@ TEST_CASE("PPM PGM TGA and BMP files have the codes of their bytes with the top 
                rows;
     };
     CHECK(read(".bmp", bmp(24, "\x09\x08\x07\x78\x6e\x64\0\0\x03\x02\x01\x3c\x32\x28\0\0"s)).codes == expected);
-    const Target unused = read(".bmp", bmp(32, "\x09\x08\x07\0\x78\x6e\x64\0\x03\x02\x01\0\x3c\x32\x28\0"s));
+    const TargetImage unused = read(".bmp", bmp(32, "\x09\x08\x07\0\x78\x6e\x64\0\x03\x02\x01\0\x3c\x32\x28\0"s));
     CHECK(unused.channels == 3);  // a fourth byte that is 0 in every pixel is not alpha
     CHECK(unused.codes == expected);
 }
@@ -210,7 +210,7 @@ TEST_CASE("Radiance HDR is read as binary32 from its shared exponents") {
     // (r, g, b, e) is r / 256 2^(e - 128); the library returns the middle of a step or its lower end, within 2^-8 of
     // it.
     const OwnFile file{".hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x40\x20\x82\x00\x00\x00\x00"s};
-    const Target target = read_picture(file.path()).targets.at(0);
+    const TargetImage target = read_picture(file.path()).targets.at(0);
     CHECK(target.code == Code::single);
     CHECK(target.channels == 3);
     CHECK(target.value_at(0, 0) == Approx(2).epsilon(1.0 / 128));

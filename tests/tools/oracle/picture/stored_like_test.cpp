@@ -36,7 +36,7 @@ TEST_CASE("a rendered target stored like a PNG has the codes that the writer of 
          {pipeline::Format::rgba8, pipeline::Format::rgba16f, pipeline::Format::rgba32f})
         for (const pipeline::ColorSpace space : {pipeline::ColorSpace::encoded, pipeline::ColorSpace::linear}) {
             const pipeline::Image image = random_colors(format);
-            Target rendered = as_target(image, "color");
+            TargetImage rendered = as_target(image, "color");
             rendered.alpha_form = AlphaForm::premultiplied;
             const test::OwnFile file{".png"};
             scenes::write_image(file.path(), {.color = image, .premultiplied = true, .space = space});
@@ -54,7 +54,7 @@ TEST_CASE("a rendered target stored like a PNG has the codes that the writer of 
 
 TEST_CASE("targets compared with an EXR or with plain numbers are left as they were rendered") {
     const pipeline::Image image = random_colors(pipeline::Format::rgba16f);
-    Target rendered = as_target(image, "color");
+    TargetImage rendered = as_target(image, "color");
     rendered.alpha_form = AlphaForm::premultiplied;
     const test::OwnFile file{".exr"};
     scenes::write_image(file.path(), {.color = image, .premultiplied = true, .space = pipeline::ColorSpace::linear});

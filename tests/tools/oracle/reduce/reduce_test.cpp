@@ -187,7 +187,7 @@ TEST_CASE("a failure that needs whole frames is reduced by a scissor and pixels 
     REQUIRE(cut);
     CHECK(cut->scene.options.width == width);
     ReduceRules rules;
-    rules.frame = Frame::whole;
+    rules.frame = FrameExtent::whole;
     const auto found = reduce(scene, candidate, {}, rules);
     REQUIRE(found);
     CHECK(found->scene.options.width == width);

@@ -30,7 +30,7 @@ std::vector<Formats> all_of(const std::string& algorithm) {
 }
 
 // True if the picture is right under a hypothesis without slack, or with that of binary32, and with its given coverage.
-bool is_right(const SceneFragments& fragments, const oracle::Target& picture) {
+bool is_right(const SceneFragments& fragments, const oracle::TargetImage& picture) {
     const Colors colors{picture};
     Sample sample = sampled(fragments, colors, 512);
     const Families definite = families(storage_of(colors.code()), {0, 0x1p-20}, Looseness::definite);

@@ -13,9 +13,9 @@ using namespace strata::test;
 namespace {
 
 // The picture of an 8-bit port with these mistakes that blends front to back.
-oracle::Target picture_by(const SceneFragments& scene, const std::vector<Rule>& rules) {
+oracle::TargetImage picture_by(const SceneFragments& scene, const std::vector<Rule>& rules) {
     const int width = scene.width(), height = scene.height();
-    oracle::Target picture{
+    oracle::TargetImage picture{
         .name = "color", .code = oracle::Code::unorm8, .width = width, .height = height, .channels = 3};
     picture.codes.resize(std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     const Compositor compositor{port_of_codes(Order::under)};
@@ -34,7 +34,7 @@ oracle::Target picture_by(const SceneFragments& scene, const std::vector<Rule>& 
     return picture;
 }
 
-std::uint32_t farthest(const oracle::Target& a, const oracle::Target& b) {
+std::uint32_t farthest(const oracle::TargetImage& a, const oracle::TargetImage& b) {
     std::uint32_t most = 0;
     for (std::size_t i = 0; i < a.codes.size(); ++i)
         most = std::max(most, std::max(a.codes[i], b.codes[i]) - std::min(a.codes[i], b.codes[i]));
@@ -45,12 +45,12 @@ std::uint32_t farthest(const oracle::Target& a, const oracle::Target& b) {
 std::vector<std::string> misnamed_in(const std::string& scene, int width, int height) {
     const OpenedScene opened{scene, width, height};
     const SceneFragments fragments = opened.fragments();
-    const oracle::Target right = picture_by(fragments, {});
+    const oracle::TargetImage right = picture_by(fragments, {});
     const Sample sample = sampled(fragments, Colors{right}, 2048);
     std::vector<std::string> misnamed;
     std::size_t named = 0;
     for (const Rule& rule : one_of_each_kind(facts_of(fragments, sample))) {
-        const oracle::Target picture = picture_by(fragments, {rule});
+        const oracle::TargetImage picture = picture_by(fragments, {rule});
         if (farthest(picture, right) <= 1) continue;
         const Verdict verdict = judged(opened, picture);
         const auto has_kind = [&](const CheckedAccount& c) { return c.account.rules[0].kind == rule.kind; };
@@ -74,7 +74,7 @@ TEST_CASE("rules that leave fewer layers than the right near half has are checke
     const OpenedScene opened{"teapot", 48, 36};
     const SceneFragments fragments = opened.fragments();
     const std::vector<Rule> rules{{.kind = RuleKind::averaged, .n = 1}, {.kind = RuleKind::veiled, .value = 0.5f}};
-    const oracle::Target picture = picture_by(fragments, rules);
+    const oracle::TargetImage picture = picture_by(fragments, rules);
     Sample examples{fragments.setting()};
     const Account account{rules, port_of_codes(Order::both_ends)};
     const CheckedAccount found = check_all(fragments, Colors{picture}, account, WrongPixels::some, examples);

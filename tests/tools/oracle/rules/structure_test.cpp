@@ -28,11 +28,11 @@ struct Layers {
     bool operator==(const Layers&) const = default;
 };
 
-Layers layers(const std::vector<std::uint32_t>& codes, TieRule rule) {
+Layers layers(const std::vector<std::uint32_t>& codes, TieHandling rule) {
     const std::vector<Fragment> all = fragments(codes);
     const Setting setting;
     StackMaker maker{setting};
-    const Stack& stack = maker.right({.visible = all}, {rule, DepthKey::code});
+    const Stack& stack = maker.right({.visible = all}, {rule, ComparedDepth::code});
     Layers found{{}, stack.near, stack.near_without_middle};
     for (const Layer& layer : stack.layers) found.reds.push_back(static_cast<int>(layer.color[0]));
     return found;
@@ -42,12 +42,12 @@ Layers layers(const std::vector<std::uint32_t>& codes, TieRule rule) {
 
 TEST_CASE("of fragments at equal depths a rule keeps the first or the last or all in its order") {
     const std::vector<std::uint32_t> codes{1, 1, 2, 3, 3};  // of three depths the middle one may belong to either half
-    CHECK(layers(codes, TieRule::first) == Layers{{0, 1, 2, 3, 4}, 3, 2});
-    CHECK(layers(codes, TieRule::last) == Layers{{1, 0, 2, 4, 3}, 3, 2});
-    CHECK(layers(codes, TieRule::unique) == Layers{{0, 2, 3}, 2, 1});
-    CHECK(layers(codes, TieRule::unique_last) == Layers{{1, 2, 4}, 2, 1});
-    CHECK(layers(codes, TieRule::first_then_last) == Layers{{0, 1, 2, 4, 3}, 3, 2});
-    CHECK(layers({}, TieRule::first) == Layers{{}, 0, 0});
+    CHECK(layers(codes, TieHandling::first) == Layers{{0, 1, 2, 3, 4}, 3, 2});
+    CHECK(layers(codes, TieHandling::last) == Layers{{1, 0, 2, 4, 3}, 3, 2});
+    CHECK(layers(codes, TieHandling::unique) == Layers{{0, 2, 3}, 2, 1});
+    CHECK(layers(codes, TieHandling::unique_last) == Layers{{1, 2, 4}, 2, 1});
+    CHECK(layers(codes, TieHandling::first_then_last) == Layers{{0, 1, 2, 4, 3}, 3, 2});
+    CHECK(layers({}, TieHandling::first) == Layers{{}, 0, 0});
 }
 
 TEST_CASE("fragments at equal depths merge by MAX premultiplied in the near half and straight in the far half") {
@@ -58,7 +58,7 @@ TEST_CASE("fragments at equal depths merge by MAX premultiplied in the near half
     all[3].color = {0.5f, 0.5f, 0, 0.75f};
     const Setting setting;
     StackMaker maker{setting};
-    const Stack& stack = maker.right({.visible = all}, {TieRule::merged, DepthKey::code});
+    const Stack& stack = maker.right({.visible = all}, {TieHandling::merged, ComparedDepth::code});
     REQUIRE(stack.layers.size() == 2);
     CHECK(stack.layers[0].color == Rgba{0.5f, 0.5f, 0, 0.75f});  // (0.375, 0.375, 0) premultiplied
     CHECK(stack.layers[1].color == Rgba{1.0f, 0.5f, 0, 0.75f});
@@ -71,8 +71,8 @@ TEST_CASE("depths are compared as stored codes or as binary32 and a pixel has ti
     all[1].shader_z = 0.5f;
     const Setting setting;
     StackMaker maker{setting};
-    CHECK(maker.right({.visible = all}, {TieRule::unique, DepthKey::code}).layers.size() == 1);
-    const Stack& by_z = maker.right({.visible = all}, {TieRule::unique, DepthKey::shader_z});
+    CHECK(maker.right({.visible = all}, {TieHandling::unique, ComparedDepth::code}).layers.size() == 1);
+    const Stack& by_z = maker.right({.visible = all}, {TieHandling::unique, ComparedDepth::shader_z});
     REQUIRE(by_z.layers.size() == 2);
     CHECK(by_z.layers[0].color[0] == 1);
     CHECK(has_ties(all));
@@ -118,9 +118,10 @@ TEST_CASE("omitted rules for ties give the same structures as the rules that rep
         }
         std::vector<Stack> kept{maker.right(list, {})};
         for (std::uint32_t p = 1; p < choices.permutations; ++p)
-            kept.push_back(maker.right(list, {TieRule::other, DepthKey::code, p}));
+            kept.push_back(maker.right(list, {TieHandling::other, ComparedDepth::code, p}));
         for (std::uint32_t p = 0; p < permutations; ++p)
-            REQUIRE(std::ranges::find(kept, maker.right(list, {TieRule::other, DepthKey::code, p})) != kept.end());
+            REQUIRE(std::ranges::find(kept, maker.right(list, {TieHandling::other, ComparedDepth::code, p})) !=
+                    kept.end());
     }
     CHECK(left_out > 0);
 }

@@ -24,7 +24,7 @@ OpenedScene over_alpha(float alpha) {
 // The scene's right picture by 8-bit codes, with this alpha for what a pixel's layers let through, its layers' alphas
 // from the far end, and the alpha of what lies behind.
 using AlphaOf = std::function<double(double through, const std::vector<double>& far_to_near, double behind)>;
-oracle::Target picture_with(const OpenedScene& opened, const AlphaOf& alpha) {
+oracle::TargetImage picture_with(const OpenedScene& opened, const AlphaOf& alpha) {
     std::vector<double> alphas;
     const auto note = [&](PortList& list) {
         double through = 1;
@@ -35,7 +35,7 @@ oracle::Target picture_with(const OpenedScene& opened, const AlphaOf& alpha) {
         }
         alphas.push_back(alpha(through, far_to_near, list.has_opaque ? 1 : double{list.background[3]}));
     };
-    oracle::Target picture = picture_of_port(opened, port_of_codes(Order::over), note);
+    oracle::TargetImage picture = picture_of_port(opened, port_of_codes(Order::over), note);
     for (std::size_t i = 0; i < alphas.size(); ++i)
         picture.codes[4 * i + 3] = static_cast<std::uint32_t>(std::lround(alphas[i] * 255));
     return picture;
@@ -76,7 +76,7 @@ TEST_CASE("the alpha of every exact algorithm over a transparent background is r
 
 TEST_CASE("one alpha that no rounding leaves is wrong at its pixel, though all colours are right") {
     const OpenedScene opened = over_alpha(0);
-    oracle::Target picture = picture_with(opened, right_alpha);
+    oracle::TargetImage picture = picture_with(opened, right_alpha);
     const Verdict right = judged(opened, picture);
     CHECK(right.is_right);
     CHECK(right.alpha.state == AlphaState::right);
@@ -135,7 +135,7 @@ TEST_CASE("a picture whose alpha is 1 everywhere has none to compare and is not 
 namespace {
 
 // What a file of straight colours holds of premultiplied codes.
-oracle::Target straight(oracle::Target picture) {
+oracle::TargetImage straight(oracle::TargetImage picture) {
     for (std::size_t i = 0; i < picture.codes.size(); i += 4)
         for (std::size_t c = 0; c < 3; ++c) {
             const std::uint32_t alpha = picture.codes[i + 3];
@@ -149,8 +149,8 @@ oracle::Target straight(oracle::Target picture) {
 
 TEST_CASE("a picture over a transparent background is right with straight colours and with premultiplied ones") {
     const OpenedScene opened = over_alpha(0);
-    const oracle::Target premultiplied = picture_with(opened, right_alpha);
-    oracle::Target stored = premultiplied;  // as it is, in a file of straight colours
+    const oracle::TargetImage premultiplied = picture_with(opened, right_alpha);
+    oracle::TargetImage stored = premultiplied;  // as it is, in a file of straight colours
     stored.alpha_form = oracle::AlphaForm::straight;
     SceneFragments fragments = opened.fragments();
     for (const bool is_straight : {true, false}) {
@@ -165,8 +165,8 @@ TEST_CASE("a picture over a transparent background is right with straight colour
 
 TEST_CASE("straight colours that a shader divides are right though they pass through two roundings") {
     OpenedScene opened = over_alpha(0.4f);
-    const oracle::Target floats = *opened.picture("a_buffer", pipeline::Format::rgba32f);
-    oracle::Target picture = floats;
+    const oracle::TargetImage floats = *opened.picture("a_buffer", pipeline::Format::rgba32f);
+    oracle::TargetImage picture = floats;
     picture.code = oracle::Code::unorm8;
     picture.alpha_form = oracle::AlphaForm::straight;
     for (std::size_t pixel = 0; pixel < floats.pixels(); ++pixel) {

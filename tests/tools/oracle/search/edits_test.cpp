@@ -18,7 +18,7 @@ constexpr int side = 32;
 struct TwoMistakes {
     OpenedScene opened{"showroom", side, side};
     std::vector<std::size_t> layers{};  // per pixel: the number of its layers
-    oracle::Target picture{};
+    oracle::TargetImage picture{};
 
     TwoMistakes() {
         const auto change = [&](PortList& l) {
@@ -90,7 +90,7 @@ TEST_CASE("for a pixel that no rule explains a subset and an order of its layers
         layers.push_back(l.visible.size());
         if (l.visible.size() >= 3) std::rotate(l.visible.begin(), l.visible.begin() + 2, l.visible.begin() + 3);
     };
-    const oracle::Target picture = picture_of_port(opened, port_of_codes(Order::over), rotate);
+    const oracle::TargetImage picture = picture_of_port(opened, port_of_codes(Order::over), rotate);
     SceneFragments fragments = opened.fragments();
     const Colors colors{picture};
     const Verdict verdict = judge(fragments, colors);

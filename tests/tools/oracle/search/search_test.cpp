@@ -156,7 +156,7 @@ TEST_CASE("layers that are lost in the middle of many are found although truncat
 
 TEST_CASE("a picture that is right except for reversed rows is reported as such") {
     const OpenedScene opened{"showroom", 32, 32};
-    oracle::Target picture = picture_of_port(opened, port_of_codes(Order::under), {});
+    oracle::TargetImage picture = picture_of_port(opened, port_of_codes(Order::under), {});
     for (std::size_t y = 0; y < 16; ++y)
         std::swap_ranges(picture.codes.begin() + static_cast<std::ptrdiff_t>(y * 128),
                          picture.codes.begin() + static_cast<std::ptrdiff_t>((y + 1) * 128),

@@ -38,7 +38,8 @@ struct OpenedScene {
         return oracle::verdict::SceneFragments{input(), std::uint64_t{1} << 30};
     }
     // Empty if the profile lacks a feature.
-    [[nodiscard]] std::optional<oracle::Target> picture(const std::string& algorithm, pipeline::Format format) const {
+    [[nodiscard]] std::optional<oracle::TargetImage> picture(const std::string& algorithm,
+                                                             pipeline::Format format) const {
         peeling::RenderOptions chosen = options;
         chosen.color_format = format;
         chosen.audit = false;
@@ -50,7 +51,7 @@ struct OpenedScene {
 };
 
 // The verdict on a picture of the scene.
-[[nodiscard]] inline oracle::verdict::Verdict judged(const OpenedScene& opened, const oracle::Target& picture) {
+[[nodiscard]] inline oracle::verdict::Verdict judged(const OpenedScene& opened, const oracle::TargetImage& picture) {
     oracle::verdict::SceneFragments fragments = opened.fragments();
     return judge(fragments, oracle::verdict::Colors{picture});
 }

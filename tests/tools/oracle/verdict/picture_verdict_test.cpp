@@ -15,13 +15,15 @@ using namespace strata::test;
 
 namespace {
 
-PictureVerdict verdict_on(const OpenedScene& opened, const oracle::Target& picture, const char* algorithm = nullptr) {
+PictureVerdict verdict_on(const OpenedScene& opened, const oracle::TargetImage& picture,
+                          const char* algorithm = nullptr) {
     return judge_picture(opened.input(),
                          {.colors = picture,
                           .is_frame_linear = opened.is_linear,
                           .algorithm = algorithm == nullptr ? nullptr : peeling::find_algorithm(algorithm)});
 }
-std::string first_line_on(const OpenedScene& opened, const oracle::Target& picture, const char* algorithm = nullptr) {
+std::string first_line_on(const OpenedScene& opened, const oracle::TargetImage& picture,
+                          const char* algorithm = nullptr) {
     return first_line(verdict_on(opened, picture, algorithm).found, opened.scene.list);
 }
 
@@ -54,7 +56,7 @@ TEST_CASE("a tie of which one fragment is lost is said, and wrong of an algorith
     };
     Hypothesis halves = port_of_codes(Order::over);
     halves.back = {Storage::unorm10, SourceRounding::stored, Rounding::nearest};
-    const oracle::Target lost = picture_of_port(opened, halves, lose);
+    const oracle::TargetImage lost = picture_of_port(opened, halves, lose);
     const PictureVerdict found = verdict_on(opened, lost);
     CHECK(found.state() == State::right_but_excused);
     const std::string line = first_line(found.found, opened.scene.list);
@@ -86,7 +88,7 @@ TEST_CASE("a background that differs in one channel alone is named") {
     for (int channel = 0; channel < 3; ++channel) {
         OpenedScene other{"teapot", 48, 36};
         other.options.background[static_cast<std::size_t>(channel)] = 0.9f;
-        const oracle::Target picture = *other.picture("dual", pipeline::Format::rgba8);
+        const oracle::TargetImage picture = *other.picture("dual", pipeline::Format::rgba8);
         const std::string codes[] = {"229, 77, 128", "51, 229, 128", "51, 77, 229"};
         CHECK(first_line_on(opened, picture) == "wrong: the background is " + codes[channel] + " of 255");
     }
@@ -94,7 +96,7 @@ TEST_CASE("a background that differs in one channel alone is named") {
 
 TEST_CASE("the progress of a long verdict is shown by shares from 0 to 1") {
     const OpenedScene opened{"teapot", 48, 36};
-    const oracle::Target picture = picture_of_port(opened, port_of_codes(Order::over), [](PortList& l) {
+    const oracle::TargetImage picture = picture_of_port(opened, port_of_codes(Order::over), [](PortList& l) {
         if (l.visible.size() > 2) std::swap(l.visible[0], l.visible[2]);
         if (l.visible.size() > 1) l.visible.pop_back();
     });
@@ -115,8 +117,8 @@ TEST_CASE("a file for display of a linear frame holds encoded values") {
     OpenedScene linear{"showroom", 32, 24};
     linear.open_linear("showroom");
     for (const pipeline::Format format : {pipeline::Format::rgba8, pipeline::Format::rgba32f}) {
-        const oracle::Target frame = *linear.picture("dual", format);
-        oracle::Target file = frame;
+        const oracle::TargetImage frame = *linear.picture("dual", format);
+        oracle::TargetImage file = frame;
         file.holds_encoded = true;
         file = oracle::stored_like(frame, file, pipeline::ColorSpace::linear).value();
         file.holds_encoded = true;
@@ -124,7 +126,7 @@ TEST_CASE("a file for display of a linear frame holds encoded values") {
         CHECK(first_line_on(linear, frame).starts_with("right: "));  // an EXR
     }
     // A port that shows linear numbers is right but for the file.
-    oracle::Target numbers = *linear.picture("dual", pipeline::Format::rgba8);
+    oracle::TargetImage numbers = *linear.picture("dual", pipeline::Format::rgba8);
     numbers.holds_encoded = true;
     const PictureVerdict found = verdict_on(linear, numbers);
     CHECK(found.is_right());
@@ -134,7 +136,7 @@ TEST_CASE("a file for display of a linear frame holds encoded values") {
 TEST_CASE("a port that decodes colours and never encodes them is named, with what it decodes") {
     OpenedScene linear{"hard:case=cyclic-overlap", 32, 24};  // each surface has one colour
     linear.open_linear("hard:case=cyclic-overlap");
-    const oracle::Target numbers = *linear.picture("dual", pipeline::Format::rgba8);
+    const oracle::TargetImage numbers = *linear.picture("dual", pipeline::Format::rgba8);
     const PictureVerdict never = verdict_on(OpenedScene{"hard:case=cyclic-overlap", 32, 24}, numbers);
     REQUIRE(never.found.explanations.size() == 1);
     CHECK(never.found.explanations[0].account.rules[0].kind == RuleKind::decoded);

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int samples = 4;
 
-oracle::Target resolved(const OpenedScene& opened, const std::string& algorithm, pipeline::Format format,
-                        int max_passes = 0) {
+oracle::TargetImage resolved(const OpenedScene& opened, const std::string& algorithm, pipeline::Format format,
+                             int max_passes = 0) {
     peeling::RenderOptions options = opened.options;
     options.color_format = format;
     options.audit = false;
@@ -27,7 +27,7 @@ oracle::Target resolved(const OpenedScene& opened, const std::string& algorithm,
     return oracle::as_target(renderer.render(*peeling::find_algorithm(algorithm)).frame.color, "color");
 }
 
-ResolvedVerdict judged_samples(const OpenedScene& opened, const oracle::Target& picture) {
+ResolvedVerdict judged_samples(const OpenedScene& opened, const oracle::TargetImage& picture) {
     std::vector<std::unique_ptr<SceneFragments>> all;
     for (std::size_t number = 0; number < samples; ++number) {
         peeling::RenderOptions options = opened.options;

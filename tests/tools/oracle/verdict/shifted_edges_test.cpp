@@ -31,7 +31,7 @@ OpenedScene moved_by(double right, double up) {
 
 PictureVerdict verdict_on(const OpenedScene& drawn) {
     static const OpenedScene opened = unlit_teapot();
-    const oracle::Target picture = *drawn.picture("front_to_back", pipeline::Format::rgba8);
+    const oracle::TargetImage picture = *drawn.picture("front_to_back", pipeline::Format::rgba8);
     return judge_picture(opened.input(), {.colors = picture});
 }
 

@@ -14,7 +14,9 @@ namespace {
 
 constexpr pipeline::Format formats[] = {pipeline::Format::rgba8, pipeline::Format::rgba16f, pipeline::Format::rgba32f};
 
-Verdict judged(SceneFragments& fragments, const oracle::Target& picture) { return judge(fragments, Colors{picture}); }
+Verdict judged(SceneFragments& fragments, const oracle::TargetImage& picture) {
+    return judge(fragments, Colors{picture});
+}
 
 // The names of all exact algorithms and formats whose pictures are not called right.
 std::vector<std::string> not_right(const OpenedScene& opened) {
@@ -41,7 +43,7 @@ TEST_CASE("the picture of every exact algorithm in every format is right", "[lon
 
 TEST_CASE("a pixel changed by more than rounding allows is the only wrong one") {
     const OpenedScene opened{"teapot", 48, 36};
-    oracle::Target picture = *opened.picture("dual", pipeline::Format::rgba8);
+    oracle::TargetImage picture = *opened.picture("dual", pipeline::Format::rgba8);
     SceneFragments fragments = opened.fragments();
     const Verdict right = judged(fragments, picture);
     CHECK(right.is_right);
@@ -67,10 +69,10 @@ TEST_CASE("the reported hypothesis has the formats with which the picture was ma
     CHECK(codes.right.account.hypothesis.order == Order::under);
     CHECK(codes.right.account.hypothesis.front ==
           End{Storage::unorm8, SourceRounding::premultiplied, Rounding::nearest});
-    CHECK(codes.right.ties.rule == TieRule::unique);
+    CHECK(codes.right.ties.rule == TieHandling::unique);
     const Verdict floats = judged(fragments, *opened.picture("a_buffer", pipeline::Format::rgba8));
     CHECK(floats.right.account.hypothesis.front.storage == Storage::single);
     CHECK(floats.right.observed <= floats.right.possible);
-    CHECK(floats.right.ties.rule == TieRule::first);
+    CHECK(floats.right.ties.rule == TieHandling::first);
     CHECK(floats.right.has_one_tie_rule);
 }

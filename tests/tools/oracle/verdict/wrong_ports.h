@@ -27,8 +27,8 @@ inline oracle::verdict::Hypothesis port_of_codes(oracle::verdict::Order order) {
 }
 
 // The picture of a port that applies a change to every list. `seed` decides where the hypothesis leaves a choice.
-inline oracle::Target picture_of_port(const OpenedScene& opened, const oracle::verdict::Hypothesis& hypothesis,
-                                      const ChangeList& change, std::uint64_t seed = 1) {
+inline oracle::TargetImage picture_of_port(const OpenedScene& opened, const oracle::verdict::Hypothesis& hypothesis,
+                                           const ChangeList& change, std::uint64_t seed = 1) {
     peeling::RenderOptions options = opened.options;
     options.audit = false;
     peeling::Renderer renderer{opened.scene.list, opened.view, opened.profile, options};
@@ -52,7 +52,7 @@ inline oracle::Target picture_of_port(const OpenedScene& opened, const oracle::v
     for (const pipeline::CapturedFragment& f : all.all)
         (f.code < all.opaque[f.pixel] ? lists[f.pixel].visible : lists[f.pixel].hidden).push_back(f);
     PortModel port{hypothesis, seed};
-    oracle::Target picture{
+    oracle::TargetImage picture{
         .name = "color", .code = oracle::Code::unorm8, .width = options.width, .height = options.height, .channels = 4};
     for (PortList& list : lists) {
         std::ranges::stable_sort(list.visible, {}, &pipeline::CapturedFragment::code);
