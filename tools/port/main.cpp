@@ -13,7 +13,7 @@ namespace strata::port {
 
 namespace {
 
-struct Options {
+struct PortOptions {
     std::string pack, output, driver = "llvmpipe", mistakes, origin = "upper-left";
     std::vector<std::string> algorithms;
     int threads = 2, max_passes = 200, samples = 1, sample = -1;
@@ -21,13 +21,13 @@ struct Options {
     bool list = false, picture_only = false;
 };
 
-void list_mistakes(const Options& options) {
+void list_mistakes(const PortOptions& options) {
     for (const PortMistake& mistake : options.samples > 1 ? sampled_mistakes() : mistakes())
         fmt::print("{:<26}{:<18}{}\n", mistake.name, mistake.algorithm, mistake.words);
 }
 
 // The requested algorithms, or all of the pack's that the port supports.
-std::vector<std::string> chosen(const Options& options, const Pack& pack) {
+std::vector<std::string> chosen(const PortOptions& options, const Pack& pack) {
     if (!options.algorithms.empty()) return options.algorithms;
     std::vector<std::string> found;
     for (const std::string& name : pack.algorithms)
@@ -38,7 +38,7 @@ std::vector<std::string> chosen(const Options& options, const Pack& pack) {
 }
 
 // What is read back sample by sample.
-void check_sampled(const Options& options, const Pack& pack, const std::vector<std::string>& algorithms) {
+void check_sampled(const PortOptions& options, const Pack& pack, const std::vector<std::string>& algorithms) {
     if (options.sample >= options.samples)
         throw std::runtime_error(fmt::format("--sample: expected a number below --samples, found {}", options.sample));
     if (!(pack.formats.depth == d32f))
@@ -51,7 +51,7 @@ void check_sampled(const Options& options, const Pack& pack, const std::vector<s
 }
 
 // A pack of all samples says how many, where programs run, and what they load, unless options do.
-void take_sampling(const PackSampling& pack, Options& options, SampleLoads& loads) {
+void take_sampling(const PackSampling& pack, PortOptions& options, SampleExpressions& loads) {
     if (pack.samples == 1 || options.samples > 1) return;
     options.samples = pack.samples;
     options.interpolation = pack.interpolation;
@@ -59,7 +59,7 @@ void take_sampling(const PackSampling& pack, Options& options, SampleLoads& load
     if (pack.composites == "zero") loads.full_screen = "0";
 }
 
-int run(Options options) {
+int run(PortOptions options) {
     const Pack pack = read_pack(options.pack);
     const std::vector<std::string> algorithms = chosen(options, pack);
     PortSettings settings = settings_with(options.mistakes);
@@ -69,11 +69,11 @@ int run(Options options) {
     const HeadlessContext context(options.driver, options.threads);
     if (options.samples > 1) {
         check_sampled(options, pack, algorithms);
-        Shading& shading = settings.sampled.shading;
-        if (options.interpolation != "sample") shading = Shading::pixel;
+        ShadingRate& shading = settings.sampled.shading;
+        if (options.interpolation != "sample") shading = ShadingRate::pixel;
         set_samples(options.samples, options.sample < 0 ? settings.sampled.shown : options.sample, shading,
                     settings.sampled.loads);
-        settings.interpolation = shading == Shading::sample            ? "smooth sample"
+        settings.interpolation = shading == ShadingRate::sample        ? "smooth sample"
                                  : options.interpolation == "centroid" ? "smooth centroid"
                                                                        : "smooth";
     }
@@ -97,7 +97,7 @@ int run(Options options) {
     return 0;
 }
 
-void add_options(CLI::App& app, Options& o) {
+void add_options(CLI::App& app, PortOptions& o) {
     app.add_option("PACK", o.pack, "a golden pack (oracle/PACK.md)");
     app.add_option("-o,--output", o.output, "the candidate: a folder that does not exist");
     app.add_option("--algorithm", o.algorithms, "of the pack's, with commas between (default: all that the port has)")
@@ -130,7 +130,7 @@ void add_options(CLI::App& app, Options& o) {
 
 int main(int count, char** words) {
     CLI::App app{"Draws a golden pack by OpenGL and writes a candidate.", "strata_port"};
-    strata::port::Options options;
+    strata::port::PortOptions options;
     strata::port::add_options(app, options);
     try {
         app.parse(count, words);

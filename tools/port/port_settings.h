@@ -13,8 +13,8 @@ enum class Culling : std::uint8_t { as_listed, always_back, always_front };
 
 // Choices of a port with several samples per pixel.
 struct SampledSettings {
-    Shading shading = Shading::sample;
-    SampleLoads loads{};
+    ShadingRate shading = ShadingRate::sample;
+    SampleExpressions loads{};
     int shown = -1;                    // a sample instead of the resolved picture
     bool layers_resolved = false;      // before they are composited
     bool opaque_resolved = false;      // before anything is composited over it
@@ -40,10 +40,10 @@ struct PortSettings {
     // Depth
     GLenum depth_func = GL_LESS;
     const char* behind = "z > peeled";  // comparison of two quantised depths
-    Format min_max = rg32f;
+    PixelFormat min_max = rg32f;
     std::array<float, 4> empty_min_max{-1, -1, 0, 0};
-    const Format* depth = nullptr;  // instead of the requested format
-    bool opaque_tested = true;      // transparent surfaces behind opaque ones are discarded
+    const PixelFormat* depth = nullptr;  // instead of the requested format
+    bool opaque_tested = true;           // transparent surfaces behind opaque ones are discarded
     // Colours and blending
     const char* premultiplied = "vec4(c.rgb * c.a, c.a)";
     float transmittance_start = 1;
@@ -52,7 +52,8 @@ struct PortSettings {
     const char* back_layer = "color";
     const char* at_neither_end = "return";  // in dual: the front colour is passed through
     GLenum min_max_equation = GL_MAX;
-    std::array<const Format*, 2> sums{};  // of weighted averages: formats of sums and count instead of the correct ones
+    std::array<const PixelFormat*, 2>
+        sums{};  // of weighted averages: formats of sums and count instead of the correct ones
     bool background_used = true;
     bool encoded_again = false;      // the finished picture is written to an sRGB target
     GLenum channel_order = GL_RGBA;  // in which the finished picture is read back

@@ -12,9 +12,9 @@ namespace strata::tools {
 namespace {
 
 // Collects the times from Google Benchmark, whose own report is not printed.
-class Collector : public benchmark::BenchmarkReporter {
+class TimeCollector : public benchmark::BenchmarkReporter {
   public:
-    explicit Collector(std::vector<BenchResult>& results) : results_{results} {}
+    explicit TimeCollector(std::vector<BenchResult>& results) : results_{results} {}
 
     bool ReportContext(const Context&) override { return true; }
     void ReportRuns(const std::vector<Run>& runs) override {
@@ -129,7 +129,7 @@ std::vector<BenchResult> measure(const std::vector<BenchJob>& jobs, const Repeti
             ->Iterations(1)
             ->Repetitions(repetitions.timed);
     }
-    Collector collector(results);
+    TimeCollector collector(results);
     benchmark::RunSpecifiedBenchmarks(&collector, nullptr, ".");
     for (BenchResult& result : results)
         if (repetitions.counters && !result.is_refused()) result.last.counters = count(result.job);

@@ -73,15 +73,16 @@ double ExactCase::depth_at(std::uint32_t primitive, std::size_t pixel) const {
 namespace {
 
 // A pixel's transparent fragment with the data for blending.
-struct Layer {
+struct BlendedFragment {
     double depth;
     std::uint32_t primitive;
     Rgba color;
 };
 
 // Depths that are equal in binary64 get the same layer number.
-ResultPixel pixel_of(std::vector<Layer> layers, std::array<double, 3> background) {
-    std::stable_sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.depth < b.depth; });
+ResultPixel pixel_of(std::vector<BlendedFragment> layers, std::array<double, 3> background) {
+    std::stable_sort(layers.begin(), layers.end(),
+                     [](const BlendedFragment& a, const BlendedFragment& b) { return a.depth < b.depth; });
     ResultPixel pixel{.fragments = {}, .layers = static_cast<int>(layers.size()), .color = background};
     int layer = 0;
     for (std::size_t i = 0; i < layers.size(); ++i) {
@@ -101,8 +102,8 @@ ResultPixel pixel_of(std::vector<Layer> layers, std::array<double, 3> background
 
 ResultPixels ExactCase::visible_pixels() const {
     const rasterizer::Rect frame{0, 0, hard_.width, hard_.height};
-    std::vector<std::vector<Layer>> layers(frame.area());
-    std::vector<Layer> nearest(frame.area(), {std::max(hard_.depth_near, hard_.depth_far), 0, {0, 0, 0, 1}});
+    std::vector<std::vector<BlendedFragment>> layers(frame.area());
+    std::vector<BlendedFragment> nearest(frame.area(), {std::max(hard_.depth_near, hard_.depth_far), 0, {0, 0, 0, 1}});
     const auto visit = [&](const Surface& surface, const auto& take) {
         const rasterizer::Rect box = surface.triangle.box(frame);
         for (int y = box.y0; y < box.y1; ++y)
@@ -112,15 +113,15 @@ ResultPixels ExactCase::visible_pixels() const {
                 if (!weights.is_inside || z < hard_.depth_near || z > hard_.depth_far) continue;
                 const auto pixel =
                     static_cast<std::size_t>(y) * static_cast<std::size_t>(hard_.width) + static_cast<std::size_t>(x);
-                take(pixel, Layer{z, surface.triangle.primitive(), surface.color});
+                take(pixel, BlendedFragment{z, surface.triangle.primitive(), surface.color});
             }
     };
     for (const Surface& surface : opaque_)
-        visit(surface, [&](std::size_t p, const Layer& layer) {
+        visit(surface, [&](std::size_t p, const BlendedFragment& layer) {
             if (layer.depth < nearest[p].depth) nearest[p] = layer;
         });
     for (const Surface& surface : transparent_)
-        visit(surface, [&](std::size_t p, const Layer& layer) {
+        visit(surface, [&](std::size_t p, const BlendedFragment& layer) {
             if (layer.depth < nearest[p].depth) layers[p].push_back(layer);
         });
     ResultPixels visible_pixels;

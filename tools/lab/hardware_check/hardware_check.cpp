@@ -31,7 +31,7 @@ namespace hc = hardware_check;
 namespace fs = std::filesystem;
 
 // The command line. Empty texts: all suites, no folder of differences.
-struct Options {
+struct HardwareCheckOptions {
     std::string folder, suite, profile = "geforce3", output;
     bool json = false, hypotheses = false, digests = false;
 };
@@ -46,7 +46,7 @@ std::vector<std::string> sorted_names(const fs::path& folder, auto&& is_wanted) 
 }
 
 // Every capture in the folder, suite by suite, including unknown suites.
-std::vector<Capture> find_captures(const Options& options) {
+std::vector<Capture> find_captures(const HardwareCheckOptions& options) {
     if (!fs::is_directory(options.folder)) throw InputError{options.folder, "no such folder of captures"};
     std::vector<std::string> known;
     for (const hc::Suite& suite : hc::suites()) known.emplace_back(suite.name);
@@ -81,7 +81,7 @@ std::vector<CheckedPicture> check_all(const std::vector<Capture>& captures, cons
     return checked;
 }
 
-int hardware_check(const Options& options) {
+int hardware_check(const HardwareCheckOptions& options) {
     keep_freed_memory();
     const pipeline::DeviceProfile profile = scenes::load_profile(options.profile);
     const std::vector<Capture> captures = find_captures(options);
@@ -104,7 +104,7 @@ int hardware_check(const Options& options) {
 
 Command add_hardware_check(CLI::App& root) {
     auto* app = add_lab_command(root, "hardware-check");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<HardwareCheckOptions>();
     app->add_option("DIR", options->folder, "captures: DIR/SUITE/NAME.png, named as upstream names them")
         ->required()
         ->type_name("");

@@ -27,7 +27,7 @@ constexpr Titled subjects[] = {{Subject::window_depth, "depths that are written"
                                {Subject::coordinates, "texture coordinates"}};
 
 // One capture's comparison under every hypothesis; empty if the capture cannot distinguish them.
-using Verdicts = std::vector<hc::Comparison>;
+using Verdicts = std::vector<hc::CaptureComparison>;
 
 bool has(hc::Subjects set, Subject subject) { return (set >> static_cast<unsigned>(subject) & 1) != 0; }
 
@@ -85,7 +85,7 @@ Table table_of(const std::vector<NamedHypothesis>& hypotheses, const std::vector
         for (const Verdicts& of_capture : verdicts) {
             // This capture cannot distinguish them.
             if (of_capture.empty()) continue;
-            const hc::Comparison& c = of_capture[h];
+            const hc::CaptureComparison& c = of_capture[h];
             equal += c.differing == 0;
             within += c.within_bound;
             differing += c.differing;

@@ -23,7 +23,7 @@ namespace {
 // their pixels, and the results of queries.
 std::string detail(const CheckedPicture& p) {
     if (!p.is_compared()) return p.unmodelled;
-    const hc::Comparison& c = p.comparison;
+    const hc::CaptureComparison& c = p.comparison;
     std::string text;
     if (c.differing > 0) {
         text = fmt::format("first at {},{}: {:08x}, the chip {:08x};", c.first[0], c.first[1], c.ours, c.theirs);
@@ -61,7 +61,7 @@ std::vector<SuiteCount> count_suites(const std::vector<CheckedPicture>& checked)
             ++s.unmodelled;
             continue;
         }
-        const hc::Comparison& c = p.comparison;
+        const hc::CaptureComparison& c = p.comparison;
         ++(c.differing == 0 ? s.equal : c.within_bound ? s.within : s.differ);
         s.pixels += c.compared;
         s.off += c.differing;
@@ -161,7 +161,7 @@ std::string to_text(const std::vector<CheckedPicture>& checked, const pipeline::
 std::string to_json(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile) {
     ordered_json pictures = ordered_json::array();
     for (const CheckedPicture& p : checked) {
-        const hc::Comparison& c = p.comparison;
+        const hc::CaptureComparison& c = p.comparison;
         ordered_json histogram = ordered_json::object();
         for (const auto& [difference, count] : c.histogram) histogram[std::to_string(difference)] = count;
         pictures.push_back({{"suite", p.capture.suite},

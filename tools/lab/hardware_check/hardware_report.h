@@ -29,7 +29,7 @@ struct CheckedPicture {
     // The reason why it was not compared; empty: it was.
     std::string unmodelled;
     hardware_check::Bound bound{};
-    hardware_check::Comparison comparison{};
+    hardware_check::CaptureComparison comparison{};
     std::vector<std::uint64_t> reports{};
     // Only with digests.
     rasterizer::Rect labels{};

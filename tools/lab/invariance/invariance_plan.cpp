@@ -17,7 +17,7 @@ using nlohmann::json;
 namespace {
 
 // The file name for messages.
-struct Source {
+struct PlanFile {
     const std::string& file;
     [[noreturn]] void fail(const std::string& place, const std::string& expected, const std::string& found) const {
         throw InputError(file, place, expected, found);
@@ -31,7 +31,7 @@ std::vector<std::string> key_names() {
 }
 
 // A value in the form of the options: numbers in their shortest form.
-std::string text_of(const json& value, const Source& source, const std::string& place) {
+std::string text_of(const json& value, const PlanFile& source, const std::string& place) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_number_unsigned()) return fmt::format("{}", value.get<std::uint64_t>());
     if (value.is_number_integer()) return fmt::format("{}", value.get<std::int64_t>());
@@ -39,14 +39,14 @@ std::string text_of(const json& value, const Source& source, const std::string& 
     source.fail(place, "a string, a number, or a list of them", value.dump());
 }
 
-void check_value(const PlanKey& key, const std::string& text, const Source& source, const std::string& place) {
+void check_value(const PlanKey& key, const std::string& text, const PlanFile& source, const std::string& place) {
     Cell cell;
     if (!key.set(cell, text)) source.fail(place, key.expected, "'" + text + "'");
 }
 
 // One value or a list of values, each checked by the key; `place` is the JSON pointer, to which a list appends the
 // index.
-std::vector<std::string> values_of_key(const PlanKey& key, const json& value, const Source& source,
+std::vector<std::string> values_of_key(const PlanKey& key, const json& value, const PlanFile& source,
                                        const std::string& place) {
     if (value.is_array() && value.empty()) source.fail(place, "at least one value", "an empty list");
     std::vector<std::string> values;
@@ -61,7 +61,7 @@ std::vector<std::string> values_of_key(const PlanKey& key, const json& value, co
 
 // The keys of an object of the plan. An unknown key is an error: otherwise a misspelled one would silently have its
 // default.
-KeyValues grid_of(const json& object, const Source& source, const std::string& place) {
+KeyValues grid_of(const json& object, const PlanFile& source, const std::string& place) {
     if (!object.is_object()) source.fail(place, "an object", object.dump());
     KeyValues values;
     for (const auto& [name, value] : object.items()) {
@@ -114,14 +114,14 @@ void add_combinations(std::vector<Cell>& cells, const KeyValues& grid, std::size
 }
 
 // The only key without a default.
-void require_scene(const KeyValues& grid, const Source& source, const std::string& place) {
+void require_scene(const KeyValues& grid, const PlanFile& source, const std::string& place) {
     if (!grid.contains("scene")) source.fail(place, "a scene, here, in /common or on the command line", "none");
 }
 
 }  // namespace
 
 std::vector<Cell> parse_plan(const std::string& text, const std::string& file, const KeyValues& options) {
-    const Source source{file};
+    const PlanFile source{file};
     const json plan = scenes::parse_strict_json(text, file, "a plan in JSON");
     if (!plan.is_object()) source.fail("/", "an object with \"grids\"", plan.dump());
     for (const auto& [name, value] : plan.items())
@@ -148,9 +148,9 @@ std::vector<Cell> parse_plan(const std::string& text, const std::string& file, c
 std::vector<Cell> cells_of(const KeyValues& options) {
     const std::string here = "strata";
     const KeyValues grid = merged(fallbacks(), options);
-    require_scene(grid, Source{here}, "SCENE");
+    require_scene(grid, PlanFile{here}, "SCENE");
     if (combinations_of(grid) > most_cells)
-        Source{here}.fail("options", fmt::format("at most {} cells in all", most_cells), "more");
+        PlanFile{here}.fail("options", fmt::format("at most {} cells in all", most_cells), "more");
     std::vector<Cell> cells;
     add_combinations(cells, grid, 0, {});
     return cells;

@@ -40,7 +40,7 @@ int compare(const ProbeOptions& options, const std::vector<probe::Item>& items) 
     const probe::YDirection y = options.orientation.value_or(probe::direction_of(given.origin));
     const pipeline::DeviceProfile profile = with_origin(given, probe::origin_of(y));
     const probe::ProbePack pack = probe::read_pack(options.compare, items);
-    const probe::Comparison device{pack, items, y};
+    const probe::KitComparison device{pack, items, y};
     if (device.count() == 0)
         throw InputError(options.compare, "probe/" + std::string{probe::name(y)},
                          "answers of that orientation (--y names another)", "none");

@@ -33,7 +33,7 @@ ordered_json to_json(const Chart& chart) {
     ordered_json curves = ordered_json::array();
     for (const Curve& curve : chart.curves) {
         ordered_json points = ordered_json::array();
-        for (const Point& p : curve.points) points.push_back({p.x, p.y});
+        for (const CurvePoint& p : curve.points) points.push_back({p.x, p.y});
         curves.push_back({{"name", curve.name}, {"points", points}});
     }
     return {{"name", chart.name}, {"x_label", chart.x_label}, {"y_label", chart.y_label}, {"curves", curves}};
@@ -41,7 +41,7 @@ ordered_json to_json(const Chart& chart) {
 
 ordered_json to_json(const Section& section) {
     ordered_json pictures = ordered_json::array(), charts = ordered_json::array();
-    for (const Picture& picture : section.pictures)
+    for (const FigureFile& picture : section.pictures)
         pictures.push_back({{"file", picture.file}, {"caption", picture.caption}});
     for (const Chart& chart : section.charts) charts.push_back(to_json(chart));
     const bool has_table = !section.sheet.rows.empty();
@@ -67,8 +67,8 @@ void write_figures(const std::string& folder, const Page& page) {
                        document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n');
 }
 
-Picture write_picture(const std::string& folder, const std::string& file, const std::string& caption,
-                      const pipeline::Image& color, ColorForm form) {
+FigureFile write_picture(const std::string& folder, const std::string& file, const std::string& caption,
+                         const pipeline::Image& color, ColorForm form) {
     scenes::write_image(folder + '/' + file, {.color = color, .premultiplied = form == ColorForm::premultiplied});
     return {file, caption};
 }

@@ -22,17 +22,17 @@ struct Sheet {
 };
 
 // A file in the page's folder, and its caption.
-struct Picture {
+struct FigureFile {
     std::string file, caption;
 };
 
 // Both axes are logarithmic: x and y are above 0.
-struct Point {
+struct CurvePoint {
     double x, y;
 };
 struct Curve {
     std::string name;
-    std::vector<Point> points{};
+    std::vector<CurvePoint> points{};
 };
 struct Chart {
     std::string name;  // of its file, without ending
@@ -44,7 +44,7 @@ struct Chart {
 struct Section {
     std::string title, text;
     Sheet sheet{};
-    std::vector<Picture> pictures{};
+    std::vector<FigureFile> pictures{};
     std::vector<Chart> charts{};
 };
 
@@ -82,8 +82,8 @@ void write_figures(const std::string& folder, const Page& page);
 // Whether an image's colours are premultiplied: a finished frame's are, a layer's as stated by its algorithm.
 enum class ColorForm : std::uint8_t { premultiplied, straight };
 // Writes an image to `folder`/file with 8-bit colours that are not premultiplied.
-[[nodiscard]] Picture write_picture(const std::string& folder, const std::string& file, const std::string& caption,
-                                    const pipeline::Image& color, ColorForm form = ColorForm::premultiplied);
+[[nodiscard]] FigureFile write_picture(const std::string& folder, const std::string& file, const std::string& caption,
+                                       const pipeline::Image& color, ColorForm form = ColorForm::premultiplied);
 
 // The difference of two images of one size. A pixel's difference is the largest of its r, g and b, in 1/255.
 struct PictureDifference {

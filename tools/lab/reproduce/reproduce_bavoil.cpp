@@ -14,13 +14,13 @@ namespace strata::tools {
 namespace {
 
 // A model with the view of all its images and counts.
-struct Subject {
+struct ViewedModel {
     const Model& model;
     pipeline::View view;
 };
 
 // One run on the profile geforce8.
-peeling::RenderResult render(const Subject& subject, const std::string& algorithm,
+peeling::RenderResult render(const ViewedModel& subject, const std::string& algorithm,
                              const peeling::RenderOptions& options) {
     return peeling::Renderer(subject.model.scene.list, subject.view, *pipeline::find_profile("geforce8"), options)
         .render(*peeling::find_algorithm(algorithm));
@@ -38,7 +38,7 @@ peeling::RenderOptions options_for(const ReproduceOptions& options, float alpha)
 
 // A row of the table of passes. dual is run with both exits: the exact one ends when nothing is left, the paper's when
 // a pass blends nothing.
-std::vector<std::string> pass_row(const ReproduceOptions& options, const Subject& subject) {
+std::vector<std::string> pass_row(const ReproduceOptions& options, const ViewedModel& subject) {
     peeling::RenderOptions exact = options_for(options, 0.6f), paper = exact;
     paper.termination.rule = pipeline::TerminationRule::paper;
     const auto dual = render(subject, "dual", exact);
@@ -91,7 +91,7 @@ Section alphas(const ReproduceOptions& options, const Model& model, const pipeli
     };
     // The varied model has its alphas in its vertices, which a factor of 1.0 does not change.
     for (const Column& column : {Column{"20", model, 0.2f}, {"60", model, 0.6f}, {"non-uniform", varied, 1.0f}}) {
-        const Subject subject{column.model, view};
+        const ViewedModel subject{column.model, view};
         const peeling::RenderOptions render_options = options_for(options, column.alpha);
         const auto dual = render(subject, "dual", render_options);
         for (const char* algorithm : {"dual", "weighted_average", "weighted_sum"}) {
@@ -124,7 +124,7 @@ Page reproduce_bavoil(const ReproduceOptions& options, const std::vector<Model>&
         {}};
     std::vector<Section> figures;
     for (const Model& model : models) {
-        const Subject subject{model, scenes::orbit_view(model.scene.bounds, 30, 20, 1.0)};
+        const ViewedModel subject{model, scenes::orbit_view(model.scene.bounds, 30, 20, 1.0)};
         passes.sheet.rows.push_back(pass_row(options, subject));
         figures.push_back(alphas(options, model, subject.view));
     }

@@ -66,7 +66,7 @@ struct CoherentTargets {
     DepthStencil nearest, previous, last_in_order, breaker;
     Handle reached, reach, accumulated, composite, query;
     Handle find_all, find_left, find_run, set_reached, composite_run, composite_end;
-    Finish finish;
+    FinalQuad finish;
 
     explicit CoherentTargets(const JobInput& in)
         : input{in},
@@ -103,7 +103,7 @@ struct CoherentTargets {
 
 // Clears the depth, and the stencil to 0 or to another target's stencil.
 void start(const CoherentTargets& t, const DepthStencil& to, float depth, const DepthStencil* stencil_of) {
-    const Size size = t.input.size;
+    const FrameSize size = t.input.size;
     if (stencil_of == nullptr) {
         glBindFramebuffer(GL_FRAMEBUFFER, to.framebuffer.name());
         glClearBufferfi(GL_DEPTH_STENCIL, 0, depth, 0);
@@ -144,7 +144,7 @@ std::uint64_t draw(const CoherentTargets& t, const Handle& program, GLuint first
 
 void show(const CoherentTargets& t, const std::string& kind, const DepthStencil& stencil,
           std::optional<std::uint64_t> query, Record* record) {
-    const Format& depth = t.input.formats.depth;
+    const PixelFormat& depth = t.input.formats.depth;
     show_pass(record, t.input.size, kind,
               {{"nearest", t.nearest.texture.name(), depth},
                {"previous", t.previous.texture.name(), depth},

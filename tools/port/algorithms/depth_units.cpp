@@ -32,9 +32,9 @@ void main() { copied = texelFetch(source, ivec2(gl_FragCoord.xy), 0); }
 )";
 
 // A saved layer: colours that are not premultiplied, and depths for the next pass's comparison.
-struct Layer {
+struct SavedLayer {
     Handle color, depth, framebuffer;
-    explicit Layer(const JobInput& in)
+    explicit SavedLayer(const JobInput& in)
         : color{make_texture(in.formats.color, in.size)},
           depth{make_texture(in.formats.depth, in.size)},
           framebuffer{make_framebuffer({color.name()}, depth.name())} {
@@ -48,7 +48,7 @@ struct UnitTargets {
     JobInput input;
     Opaque opaque;
     Handle result, composite, query, first_program, next_program, copy_program;
-    Finish finish;
+    FinalQuad finish;
 
     explicit UnitTargets(const JobInput& in)
         : input{in},
@@ -66,7 +66,7 @@ struct UnitTargets {
 };
 
 // Draws the nearest layer behind `peeled`, which is null in the first pass. Returns the samples that passed.
-std::uint64_t peel(const UnitTargets& t, const Layer* peeled, const Layer& to) {
+std::uint64_t peel(const UnitTargets& t, const SavedLayer* peeled, const SavedLayer& to) {
     t.opaque.copy_depth_to(to.framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, to.framebuffer.name());
     glClearBufferfv(GL_COLOR, 0, zero.data());
@@ -82,7 +82,7 @@ std::uint64_t peel(const UnitTargets& t, const Layer* peeled, const Layer& to) {
 }
 
 // OVER, from the farthest layer to the nearest. A pixel without such a layer has alpha 0.
-void composite(const UnitTargets& t, const std::vector<Layer>& layers, std::size_t left_out, Record* record) {
+void composite(const UnitTargets& t, const std::vector<SavedLayer>& layers, std::size_t left_out, Record* record) {
     if (t.input.settings.background_used) {
         t.opaque.copy_color_to(t.composite);
     } else {
@@ -105,13 +105,13 @@ void composite(const UnitTargets& t, const std::vector<Layer>& layers, std::size
 int depth_units(const UnitTargets& t, int max_passes, PixelCodes& picture, Record* record) {
     const TargetFormats& formats = t.input.formats;
     t.opaque.draw(t.input.scene);
-    std::vector<Layer> layers;
+    std::vector<SavedLayer> layers;
     for (bool left = true; left && static_cast<int>(layers.size()) < max_passes;) {
-        Layer layer(t.input);
+        SavedLayer layer(t.input);
         const std::uint64_t drawn = peel(t, layers.empty() ? nullptr : &layers.back(), layer);
         left = drawn > t.input.settings.query_limit;
         layers.push_back(std::move(layer));
-        const Layer& last = layers.back();
+        const SavedLayer& last = layers.back();
         const std::string number = layers.size() > 1 ? fmt::format(".{}", layers.size() - 1) : "";
         show_pass(record, t.input.size, "geometry",
                   {{"layer" + number, last.color.name(), formats.color},

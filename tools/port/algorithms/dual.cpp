@@ -74,15 +74,15 @@ void main() {
 )";
 
 // The targets and programs of a run. Pairs of targets alternate: a pass reads one of each and writes the other.
-struct DualTargets {
+struct DualResources {
     JobInput input;
     Opaque opaque;
     std::array<Handle, 2> min_max, front, initialize, peel;
     Handle back_dump, back, blend, query;
     Handle min_max_program, peel_program, blend_program, left_program;
-    Finish finish;
+    FinalQuad finish;
 
-    explicit DualTargets(const JobInput& in)
+    explicit DualResources(const JobInput& in)
         : input{in},
           opaque{in, d32f},
           min_max{make_texture(in.settings.min_max, in.size), make_texture(in.settings.min_max, in.size)},
@@ -114,7 +114,7 @@ void use_max(GLenum equation) {
 }
 
 // Pass 0: the nearest and the farthest depth of every pixel, and empty sums.
-void initialize(const DualTargets& t, Record* record) {
+void initialize(const DualResources& t, Record* record) {
     t.opaque.draw(t.input.scene);
     glBindFramebuffer(GL_FRAMEBUFFER, t.peel[0].name());
     glClearBufferfv(GL_COLOR, 1, zero.data());
@@ -137,7 +137,7 @@ void initialize(const DualTargets& t, Record* record) {
 }
 
 // One geometry pass: fragments at the ends of `last` become colours, those between them determine the next ends.
-void peel_both_ends(const DualTargets& t, std::size_t last) {
+void peel_both_ends(const DualResources& t, std::size_t last) {
     glBindFramebuffer(GL_FRAMEBUFFER, t.peel[1 - last].name());
     glClearBufferfv(GL_COLOR, 0, t.input.settings.empty_min_max.data());
     glClearBufferfv(GL_COLOR, 1, zero.data());
@@ -150,7 +150,7 @@ void peel_both_ends(const DualTargets& t, std::size_t last) {
 
 // Blends the far layers with OVER. Returns the number of pixels for which min_max[`min_max`] still contains depths: 0
 // ends the peel.
-std::uint64_t blend_back(const DualTargets& t, std::size_t min_max) {
+std::uint64_t blend_back(const DualResources& t, std::size_t min_max) {
     if (t.input.settings.sampled.layers_resolved)
         resolve_in_place(t.back_dump.name(), t.input.formats.color, t.input.size);
     glBindFramebuffer(GL_FRAMEBUFFER, t.blend.name());
@@ -170,8 +170,8 @@ std::uint64_t blend_back(const DualTargets& t, std::size_t min_max) {
 }
 
 // Records the targets after a pass.
-void show(const DualTargets& t, const std::string& kind, std::optional<std::uint64_t> query, Record* record) {
-    const Format &color = t.input.formats.color, &min_max = t.input.settings.min_max;
+void show(const DualResources& t, const std::string& kind, std::optional<std::uint64_t> query, Record* record) {
+    const PixelFormat &color = t.input.formats.color, &min_max = t.input.settings.min_max;
     show_pass(record, t.input.size, kind,
               {{"min_max", t.min_max[0].name(), min_max},
                {"min_max.1", t.min_max[1].name(), min_max},
@@ -183,7 +183,7 @@ void show(const DualTargets& t, const std::string& kind, std::optional<std::uint
 }
 
 // Peels to the last layer, or to `max_passes` geometry passes. Returns the number of geometry passes.
-int dual(const DualTargets& t, int max_passes, PixelCodes& picture, Record* record) {
+int dual(const DualResources& t, int max_passes, PixelCodes& picture, Record* record) {
     initialize(t, record);
     int passes = 1;
     std::size_t last = 0;
@@ -206,7 +206,7 @@ int dual(const DualTargets& t, int max_passes, PixelCodes& picture, Record* reco
 }  // namespace
 
 Job dual_job(const JobInput& input) {
-    const auto t = std::make_shared<DualTargets>(input);
+    const auto t = std::make_shared<DualResources>(input);
     return {"dual", [t](PixelCodes& picture, int max_passes, Record* record) {
                 const int lost = t->input.settings.passes_left_out;
                 if (lost > 0) max_passes = dual(*t, max_passes, picture, nullptr) - lost;

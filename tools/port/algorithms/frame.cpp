@@ -4,7 +4,7 @@
 
 namespace strata::port {
 
-void set_window(Size size, const PortSettings& settings, GLenum clip_depth) {
+void set_window(FrameSize size, const PortSettings& settings, GLenum clip_depth) {
     const GLenum other = clip_depth == GL_ZERO_TO_ONE ? GL_NEGATIVE_ONE_TO_ONE : GL_ZERO_TO_ONE;
     glViewport(0, 0, size.width, size.height);
     glClipControl(settings.origin, settings.other_clip_depth ? other : clip_depth);
@@ -12,7 +12,7 @@ void set_window(Size size, const PortSettings& settings, GLenum clip_depth) {
     glScissor(0, 0, size.width * 3 / 4, size.height);
 }
 
-Opaque::Opaque(const JobInput& input, const Format& depth)
+Opaque::Opaque(const JobInput& input, const PixelFormat& depth)
     : size_{input.size},
       format_{depth},
       color_format_{input.formats.color},
@@ -71,7 +71,7 @@ std::string Opaque::hidden_text() const {
                    : "bool hidden(float z) { return z >= " + far + "; }\n";
 }
 
-Finish::Finish(const JobInput& input, const std::string& through)
+FinalQuad::FinalQuad(const JobInput& input, const std::string& through)
     : input_{input},
       target_{make_texture(picture_format(input), input.size)},
       framebuffer_{make_framebuffer({target_.name()})},
@@ -92,7 +92,7 @@ void main() {{
                       through),
           {"front_target", "behind_target"})} {}
 
-void Finish::draw(GLuint front, GLuint behind, PixelCodes& picture, Record* record) const {
+void FinalQuad::draw(GLuint front, GLuint behind, PixelCodes& picture, Record* record) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     glDisable(GL_BLEND);
     if (input_.settings.encoded_again) glEnable(GL_FRAMEBUFFER_SRGB);
@@ -103,20 +103,20 @@ void Finish::draw(GLuint front, GLuint behind, PixelCodes& picture, Record* reco
     picture = read_picture(target_.name(), input_);
 }
 
-Format picture_format(const JobInput& input) {
+PixelFormat picture_format(const JobInput& input) {
     const bool is_encoded = input.settings.encoded_again || input.settings.sampled.resolves_linear_light;
     return is_encoded && input.formats.color == rgba8 ? srgb8 : input.formats.color;
 }
 
 PixelCodes read_picture(GLuint texture, const JobInput& input) {
-    Format read = picture_format(input);
+    PixelFormat read = picture_format(input);
     read.external = input.settings.channel_order;
     PixelCodes picture = read_back(texture, read, input.size);
     picture.format = input.formats.color;
     return picture;
 }
 
-std::string stored_text(const Format& depth) {
+std::string stored_text(const PixelFormat& depth) {
     const std::string greatest = depth == d16 ? "65535.0" : "16777215.0";
     const std::string stored = depth == d32f ? "z" : "roundEven(z * " + greatest + ") * (1.0 / " + greatest + ")";
     return "float stored(float z) { z = clamp(z, 0.0, 1.0); return " + stored + "; }\n";

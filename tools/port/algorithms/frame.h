@@ -8,13 +8,13 @@ inline constexpr std::array<float, 4> zero{};
 inline constexpr float far_plane = 1.0f;
 
 // Viewport, clip control and scissor; `clip_depth` is the scene's.
-void set_window(Size size, const PortSettings& settings, GLenum clip_depth);
+void set_window(FrameSize size, const PortSettings& settings, GLenum clip_depth);
 
 // The opaque surfaces: colour over the background, and depth. A scene without any has the clear values.
 class Opaque {
   public:
     // Depths are stored in the format `depth`, which must be that of the peel.
-    Opaque(const JobInput& input, const Format& depth);
+    Opaque(const JobInput& input, const PixelFormat& depth);
     void draw(const GpuScene& scene) const;
 
     // Copies the opaque depth into the depth of `framebuffer`, whose format must be equal.
@@ -27,8 +27,8 @@ class Opaque {
     [[nodiscard]] std::string hidden_text() const;
 
   private:
-    Size size_;
-    Format format_, color_format_;
+    FrameSize size_;
+    PixelFormat format_, color_format_;
     std::array<float, 4> background_;
     bool exists_;
     PortSettings settings_;
@@ -36,9 +36,9 @@ class Opaque {
 };
 
 // The last quad: the front over the colour behind it. `through` is a GLSL expression for the transmittance of `front`.
-class Finish {
+class FinalQuad {
   public:
-    Finish(const JobInput& input, const std::string& through);
+    FinalQuad(const JobInput& input, const std::string& through);
     // Draws the quad and reads it back.
     void draw(GLuint front, GLuint behind, PixelCodes& picture, Record* record) const;
 
@@ -48,13 +48,13 @@ class Finish {
 };
 
 // Of the finished target: the frame's, or srgb8 for a port that has such a target by mistake.
-[[nodiscard]] Format picture_format(const JobInput& input);
+[[nodiscard]] PixelFormat picture_format(const JobInput& input);
 // Reads a finished target of picture_format() in the form of the port's results.
 [[nodiscard]] PixelCodes read_picture(GLuint texture, const JobInput& input);
 
 // GLSL: `float stored(float z)`, a depth as the driver stores it and reads it back: the code times the binary32
 // reciprocal of the greatest code, which for d24 may differ from the quotient. If z were compared directly, a fragment
 // could be behind itself and the peel would never end.
-[[nodiscard]] std::string stored_text(const Format& depth);
+[[nodiscard]] std::string stored_text(const PixelFormat& depth);
 
 }  // namespace strata::port

@@ -37,7 +37,7 @@ struct PeelTargets {
     Opaque opaque;
     std::array<Handle, 2> depth, peel;
     Handle layer, accumulated, under, query, first_program, next_program, under_program;
-    Finish finish;
+    FinalQuad finish;
 
     explicit PeelTargets(const JobInput& in)
         : input{in},

@@ -56,10 +56,10 @@ bool shows_all_samples() { return samples_per_pixel() > 1 && samples_shown() < 0
 
 bool keeps_layers(const Record* record) { return record != nullptr && !shows_all_samples(); }
 
-void show_pass(Record* record, Size size, const std::string& kind, std::initializer_list<NamedTexture> targets,
+void show_pass(Record* record, FrameSize size, const std::string& kind, std::initializer_list<NamedTexture> targets,
                std::optional<std::uint64_t> query) {
     if (record == nullptr) return;
-    PassReport& shown = record->passes.emplace_back(PassReport{kind, {}, query});
+    RecordedPass& shown = record->passes.emplace_back(RecordedPass{kind, {}, query});
     for (const NamedTexture& target : targets)
         shown.targets.push_back({target.name, shows_all_samples() ? read_samples(target.texture, target.format, size)
                                                                   : read_back(target.texture, target.format, size)});

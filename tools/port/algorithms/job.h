@@ -12,13 +12,13 @@ namespace strata::port {
 
 // Formats of a job's targets; images of `depth` are depths, the others colours.
 struct TargetFormats {
-    Format color = rgba8;  // or rgba16f, rgba32f
-    Format depth = d32f;   // or d16, d24
+    PixelFormat color = rgba8;  // or rgba16f, rgba32f
+    PixelFormat depth = d32f;   // or d16, d24
 };
 
 struct JobInput {
     const GpuScene& scene;
-    Size size;
+    FrameSize size;
     TargetFormats formats{};
     std::array<float, 4> background{0, 0, 0, 1};
     PortSettings settings{};
@@ -27,7 +27,7 @@ struct JobInput {
 struct NamedTexture {
     std::string name;
     GLuint texture = 0;
-    Format format;
+    PixelFormat format;
 };
 struct NamedPicture {
     std::string name;
@@ -35,7 +35,7 @@ struct NamedPicture {
 };
 
 // Every target after a pass, as read back, and the result of the pass's query.
-struct PassReport {
+struct RecordedPass {
     std::string kind;  // geometry or full_screen
     std::vector<NamedPicture> targets;
     std::optional<std::uint64_t> query;
@@ -43,13 +43,13 @@ struct PassReport {
 
 // The recorded passes and layers of a run.
 struct Record {
-    std::vector<PassReport> passes{};
+    std::vector<RecordedPass> passes{};
     std::vector<std::array<PixelCodes, 2>> layers{};  // colour and depth, nearest first
 };
 // True if layers are recorded: not of all samples, because a depth of several samples has no resolve.
 [[nodiscard]] bool keeps_layers(const Record* record);
 // Does nothing without a record. Targets of several samples are read back with all of them, unless one is chosen.
-void show_pass(Record* record, Size size, const std::string& kind, std::initializer_list<NamedTexture> targets,
+void show_pass(Record* record, FrameSize size, const std::string& kind, std::initializer_list<NamedTexture> targets,
                std::optional<std::uint64_t> query = {});
 
 // An algorithm that is ready to run: only `draw` is timed.
@@ -75,7 +75,7 @@ struct Job {
 [[nodiscard]] Job weighted_average_job(const JobInput& input);
 [[nodiscard]] Job weighted_average_pow_job(const JobInput& input);
 [[nodiscard]] Job sums_job(const JobInput& input);
-[[nodiscard]] std::vector<std::uint32_t> count_fragments(const GpuScene& scene, Size size);
+[[nodiscard]] std::vector<std::uint32_t> count_fragments(const GpuScene& scene, FrameSize size);
 
 [[nodiscard]] Job front_to_back_job(const JobInput& input);     // front_to_back.cpp
 [[nodiscard]] Job dual_job(const JobInput& input);              // dual.cpp

@@ -121,7 +121,7 @@ struct ListTargets {
 
   private:
     static std::string storage(const JobInput& in) {
-        const bool is_of_samples = samples_per_pixel() > 1 && in.settings.sampled.shading == Shading::sample;
+        const bool is_of_samples = samples_per_pixel() > 1 && in.settings.sampled.shading == ShadingRate::sample;
         return fmt::format(storage_text, in.size.width, samples_per_pixel(), is_of_samples ? "gl_SampleID" : "0");
     }
 };

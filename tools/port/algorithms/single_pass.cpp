@@ -53,7 +53,7 @@ void main() {{
 // Half-float sums of premultiplied colours and alphas, and the number of fragments.
 struct AverageTargets {
     JobInput input;
-    Format sums_format, count_format;
+    PixelFormat sums_format, count_format;
     Opaque opaque;
     Handle sums, count, result, accumulate, finish, accumulate_program, finish_program;
 
@@ -174,7 +174,7 @@ Job sums_job(const JobInput& input) {
             }};
 }
 
-std::vector<std::uint32_t> count_fragments(const GpuScene& scene, Size size) {
+std::vector<std::uint32_t> count_fragments(const GpuScene& scene, FrameSize size) {
     // A binary32 count is exact up to 2^24 fragments per pixel.
     const Handle count = make_texture(r32f, size), framebuffer = make_framebuffer({count.name()});
     const Handle program = scene.make_program("layout(location = 0) out float count;\nvoid main() { count = 1.0; }");

@@ -46,7 +46,7 @@ void main() {{
 }}
 )";
 
-Format sums_format(const JobInput& in) { return in.formats.color == rgba32f ? rgba32f : rgba16f; }
+PixelFormat sums_format(const JobInput& in) { return in.formats.color == rgba32f ? rgba32f : rgba16f; }
 
 // The last quad of both algorithms, over the opaque colour.
 struct ResolvePass {
@@ -92,7 +92,7 @@ void draw_sums(const GpuScene& scene, const Handle& program) {
 
 struct BlendedTargets {
     JobInput input;
-    Format format, revealage_format;
+    PixelFormat format, revealage_format;
     Opaque opaque;
     Handle sums, revealage, framebuffer, program;
     ResolvePass resolve;
@@ -122,14 +122,14 @@ void draw_blended(const BlendedTargets& t, PixelCodes& picture, Record* record) 
     t.resolve.draw(t.sums.name(), t.revealage.name(), t.opaque.color(), picture, record);
 }
 
-struct MomentTargets {
+struct MomentResources {
     JobInput input;
-    Format format;
+    PixelFormat format;
     Opaque opaque;
     Handle total, powers, sums, build, accumulate, build_program, accumulate_program;
     ResolvePass resolve;
 
-    MomentTargets(const JobInput& in, const std::string& log_exp)
+    MomentResources(const JobInput& in, const std::string& log_exp)
         : input{in},
           format{sums_format(in)},
           opaque{in, d32f},
@@ -144,7 +144,7 @@ struct MomentTargets {
           resolve{in, log_exp, "left >= minus_log(5.9604644775390625e-8) ? 0.0 : exp_of_minus(left)"} {}
 };
 
-void draw_moments(const MomentTargets& t, PixelCodes& picture, Record* record) {
+void draw_moments(const MomentResources& t, PixelCodes& picture, Record* record) {
     t.opaque.draw(t.input.scene);
     begin_sums(t.build);
     glClearBufferfv(GL_COLOR, 0, zero.data());
@@ -161,7 +161,7 @@ void draw_moments(const MomentTargets& t, PixelCodes& picture, Record* record) {
 }
 
 Job moments_of(const std::string& name, const JobInput& input, const char* log_exp) {
-    const auto t = std::make_shared<MomentTargets>(input, log_exp);
+    const auto t = std::make_shared<MomentResources>(input, log_exp);
     return {name, [t](PixelCodes& picture, int, Record* record) {
                 draw_moments(*t, picture, record);
                 return 2;

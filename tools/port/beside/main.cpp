@@ -24,7 +24,7 @@ namespace {
 using nlohmann::ordered_json;
 
 // The command line. Empty texts: not given. `budget` and `warm_up` are in seconds.
-struct Options {
+struct BesideOptions {
     std::string scene, camera, size = "1024x1024", driver = "llvmpipe", profile, coverage, image, mistakes;
     std::optional<float> alpha;
     std::vector<std::string> algorithms;
@@ -36,8 +36,8 @@ struct Options {
 };
 
 // Throws InputError unless the text is WIDTHxHEIGHT and nothing else, both from 1.
-Size parse_size(const std::string& text) {
-    Size size;
+FrameSize parse_size(const std::string& text) {
+    FrameSize size;
     char rest = 0;
     if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 || size.width < 1 ||
         size.height < 1)
@@ -46,7 +46,7 @@ Size parse_size(const std::string& text) {
 }
 
 // Loads the scene with the view of `strata render`: a camera file's, or the orbit 30,20.
-Subject load(const Options& options) {
+Subject load(const BesideOptions& options) {
     Subject subject;
     subject.size = parse_size(options.size);
     subject.alpha = options.alpha;
@@ -77,7 +77,7 @@ std::size_t pixels_that_differ(const pipeline::Image& a, const pipeline::Image& 
 }
 
 // The first difference of the two pictures, with both codes.
-ordered_json first_difference(const pipeline::Image& theirs, const pipeline::Image& ours, Size size) {
+ordered_json first_difference(const pipeline::Image& theirs, const pipeline::Image& ours, FrameSize size) {
     const auto channels = static_cast<std::size_t>(ours.channels()), width = static_cast<std::size_t>(size.width);
     const auto [their, our] = std::ranges::mismatch(theirs.codes, ours.codes);
     const std::size_t pixel = static_cast<std::size_t>(our - ours.codes.begin()) / channels;
@@ -96,7 +96,7 @@ double seconds_of(const Job& job, PixelCodes& pixels, int most_passes, int& pass
 
 // Two passes compile every program and touch every target; further warm-up runs follow for `warm_up`. Then runs are
 // timed until `budget` is spent.
-ordered_json measure(const Job& job, const Options& options, PixelCodes& pixels) {
+ordered_json measure(const Job& job, const BesideOptions& options, PixelCodes& pixels) {
     // More passes than any scene has layers.
     constexpr int all = 1000000;
     ordered_json seconds = ordered_json::array();
@@ -112,7 +112,7 @@ ordered_json measure(const Job& job, const Options& options, PixelCodes& pixels)
 }
 
 // Compares peels that stop after 1, 2, 3 ... geometry passes on both sides, so that their pictures show every layer.
-ordered_json compare_each_pass(const Job& job, const Options& options, const Subject& subject,
+ordered_json compare_each_pass(const Job& job, const BesideOptions& options, const Subject& subject,
                                const pipeline::DeviceProfile& profile, int passes) {
     PixelCodes pixels;
     std::size_t differ = 0, pictures = 0;
@@ -125,7 +125,7 @@ ordered_json compare_each_pass(const Job& job, const Options& options, const Sub
 }
 
 // Measures a job and prints its line of JSON immediately, because the caller pairs runs of two programs.
-void run(const Job& job, const Options& options, const Subject& subject, const pipeline::DeviceProfile& profile) {
+void run(const Job& job, const BesideOptions& options, const Subject& subject, const pipeline::DeviceProfile& profile) {
     PixelCodes pixels;
     ordered_json line = measure(job, options, pixels);
     const pipeline::Image image = as_image(pixels);
@@ -145,8 +145,8 @@ void run(const Job& job, const Options& options, const Subject& subject, const p
 }
 
 // The number of pixels in which the two programs draw different numbers of fragments.
-std::size_t check(const GpuScene& scene, const rasterizer::TriangleSoup& soup, const Options& options, Size size,
-                  const pipeline::DeviceProfile& profile) {
+std::size_t check(const GpuScene& scene, const rasterizer::TriangleSoup& soup, const BesideOptions& options,
+                  FrameSize size, const pipeline::DeviceProfile& profile) {
     const std::vector<std::uint32_t> theirs = count_fragments(scene, size);
     const auto [ours, clipped] = count_fragments(soup, profile, size);
     std::size_t differ = 0, first = 0;
@@ -169,7 +169,7 @@ std::size_t check(const GpuScene& scene, const rasterizer::TriangleSoup& soup, c
     return differ;
 }
 
-int run_all(const Options& options) {
+int run_all(const BesideOptions& options) {
     const Subject subject = load(options);
     const pipeline::DeviceProfile profile =
         scenes::load_profile(options.profile.empty() ? options.driver : options.profile);
@@ -188,7 +188,7 @@ int run_all(const Options& options) {
     return counts && check(scene, soup, options, subject.size, profile) > 0 && options.check ? 1 : 0;
 }
 
-void add_options(CLI::App& app, Options& o) {
+void add_options(CLI::App& app, BesideOptions& o) {
     app.add_option("SCENE", o.scene, "a scene as `strata render` takes it")->required();
     app.add_option("--camera", o.camera, "a camera file (default: the orbit 30,20)");
     app.add_option("--alpha", o.alpha, "every material transparent, its alpha times this");
@@ -206,8 +206,8 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--driver", o.driver, "llvmpipe, llvmpipe_sse (without fused multiply-add) or softpipe")
         ->check(CLI::IsMember(driver_names()));
     app.add_flag("--check", o.check, "compare the number of fragments of every pixel; exit status 1 if one differs");
-    const std::map<std::string, Format> colors{{"rgba8", rgba8}, {"rgba16f", rgba16f}, {"rgba32f", rgba32f}};
-    const std::map<std::string, Format> depths{{"d16", d16}, {"d24", d24}, {"d32f", d32f}};
+    const std::map<std::string, PixelFormat> colors{{"rgba8", rgba8}, {"rgba16f", rgba16f}, {"rgba32f", rgba32f}};
+    const std::map<std::string, PixelFormat> depths{{"d16", d16}, {"d24", d24}, {"d32f", d32f}};
     app.add_option_function<std::string>(
            "--color", [&o, colors](const std::string& name) { o.formats.color = colors.at(name); },
            "the format of colours: rgba8 (default), rgba16f or rgba32f")
@@ -230,7 +230,7 @@ void add_options(CLI::App& app, Options& o) {
 
 int main(int count, char** words) {
     CLI::App app{"Peels by OpenGL, beside Strata's.", "strata_port_beside"};
-    strata::port::Options options;
+    strata::port::BesideOptions options;
     strata::port::add_options(app, options);
     try {
         app.parse(count, words);

@@ -39,8 +39,8 @@ rasterizer::TriangleSoup clip_vertices(const Subject& subject) {
                                {.alpha_scale = subject.alpha.value_or(1.0f), .threads = subject.threads});
 }
 
-Mesh mesh_of(const rasterizer::TriangleSoup& soup) {
-    Mesh mesh;
+IndexedMesh mesh_of(const rasterizer::TriangleSoup& soup) {
+    IndexedMesh mesh;
     for (const rasterizer::ClipVertex& v : soup.vertices)
         mesh.vertices.push_back({{v.x, v.y, v.z, v.w}, v.front, v.back});
     mesh.indices.assign(soup.indices.begin(), soup.indices.end());
@@ -49,7 +49,7 @@ Mesh mesh_of(const rasterizer::TriangleSoup& soup) {
     return mesh;
 }
 
-pipeline::Format strata_format(const Format& format) {
+pipeline::Format strata_format(const PixelFormat& format) {
     using enum pipeline::Format;
     if (format == port::rgba8) return rgba8;
     if (format == port::rgba16f) return rgba16f;
@@ -72,7 +72,7 @@ pipeline::Image as_image(const PixelCodes& image) {
 }
 
 FragmentCounts count_fragments(const rasterizer::TriangleSoup& soup, const pipeline::DeviceProfile& profile,
-                               Size size) {
+                               FrameSize size) {
     rasterizer::RasterState state;
     // Row 0 is the top on both sides: the port sets GL_UPPER_LEFT.
     state.viewport = {0, 0, size.width, size.height};
@@ -93,9 +93,9 @@ namespace {
 
 // A target to which one pass adds: with blending, or in tiles that a profile keeps in binary32
 // (pipeline/reference/fragment-stages.md 9.5).
-class Sums {
+class SumTarget {
   public:
-    Sums(const rasterizer::Rect& frame, const pipeline::DeviceProfile& profile, pipeline::Format format)
+    SumTarget(const rasterizer::Rect& frame, const pipeline::DeviceProfile& profile, pipeline::Format format)
         : profile_{profile},
           size_{frame.width(), frame.height()},
           target_{format, 1, frame.area()},
@@ -127,7 +127,7 @@ class Sums {
 
   private:
     const pipeline::DeviceProfile& profile_;
-    Size size_;
+    FrameSize size_;
     pipeline::TargetStorage target_;
     pipeline::TileCache cache_;
     pipeline::ColorLanes source_{};
@@ -138,7 +138,7 @@ class Sums {
 // Premultiplied colours summed by blending in one pass, in submission order.
 Rendered sums(const Subject& subject, const pipeline::DeviceProfile& profile, pipeline::Format format) {
     const rasterizer::Rect frame{0, 0, subject.size.width, subject.size.height};
-    Sums adding{frame, profile, format};
+    SumTarget adding{frame, profile, format};
     rasterizer::RasterState state;
     state.viewport = frame;
     const rasterizer::Geometry geometry = rasterizer::set_up(clip_vertices(subject), state, profile.raster, 0);

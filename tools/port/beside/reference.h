@@ -18,7 +18,7 @@ struct Subject {
     scenes::Scene scene;
     pipeline::View view;
     std::optional<float> alpha;  // as --alpha of `strata render`
-    Size size;
+    FrameSize size;
     int threads = 0;
 };
 
@@ -27,7 +27,7 @@ struct Subject {
 // without --alpha.
 [[nodiscard]] rasterizer::TriangleSoup clip_vertices(const Subject& subject);
 // The mesh in the layout of the port's buffers.
-[[nodiscard]] Mesh mesh_of(const rasterizer::TriangleSoup& soup);
+[[nodiscard]] IndexedMesh mesh_of(const rasterizer::TriangleSoup& soup);
 
 // The number of fragments of `soup` per pixel under the profile's coverage rules, rows from the top, and the number of
 // clipped triangles. No test discards fragments.
@@ -36,10 +36,10 @@ struct FragmentCounts {
     std::uint64_t clipped = 0;
 };
 [[nodiscard]] FragmentCounts count_fragments(const rasterizer::TriangleSoup& soup,
-                                             const pipeline::DeviceProfile& profile, Size size);
+                                             const pipeline::DeviceProfile& profile, FrameSize size);
 
 // Strata's format with the same bits, and the codes of a picture that was read back.
-[[nodiscard]] pipeline::Format strata_format(const Format& format);
+[[nodiscard]] pipeline::Format strata_format(const PixelFormat& format);
 [[nodiscard]] pipeline::Image as_image(const PixelCodes& image);
 
 // Strata's picture for a job.

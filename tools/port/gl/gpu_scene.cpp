@@ -85,7 +85,7 @@ Handle make_layout(const Handle& vertices, const Handle& indices, GLuint attribu
 
 }  // namespace
 
-GpuScene::GpuScene(const Mesh& mesh, Size size, const PortSettings& settings)
+GpuScene::GpuScene(const IndexedMesh& mesh, FrameSize size, const PortSettings& settings)
     : settings_{settings},
       size_{size},
       two_sided_{std::ranges::any_of(mesh.vertices, [](const Vertex& v) { return v.front != v.back; })},
@@ -95,9 +95,9 @@ GpuScene::GpuScene(const Mesh& mesh, Size size, const PortSettings& settings)
     add_runs(mesh);
 }
 
-void GpuScene::add_runs(const Mesh& mesh) {
+void GpuScene::add_runs(const IndexedMesh& mesh) {
     std::array<std::size_t, 2> ends{};  // where the last run of each ended
-    for (const Draw& draw : mesh.draws) {
+    for (const DrawRange& draw : mesh.draws) {
         const auto kind = static_cast<std::size_t>(draw.transparent ? Surfaces::transparent : Surfaces::opaque);
         std::vector<Run>& runs = runs_[kind];
         const int all = static_cast<int>(draw.index_count);

@@ -13,7 +13,7 @@ enum class Surfaces : std::uint8_t { opaque, transparent };
 class GpuScene {
   public:
     // Uploads the mesh, which is not needed afterwards.
-    GpuScene(const Mesh& mesh, Size size, const PortSettings& settings);
+    GpuScene(const IndexedMesh& mesh, FrameSize size, const PortSettings& settings);
 
     // Draws the selected triangles in order, in one call per run of equal facing state. Sets culling and front face;
     // the caller sets program, framebuffer, textures and blending.
@@ -31,10 +31,10 @@ class GpuScene {
         std::uintptr_t first_byte = 0;
         bool double_sided = true, mirrored = false;
     };
-    void add_runs(const Mesh& mesh);
+    void add_runs(const IndexedMesh& mesh);
 
     PortSettings settings_;
-    Size size_;
+    FrameSize size_;
     bool two_sided_;  // some vertex has a separate colour for the back
     std::array<std::vector<Run>, 2> runs_;
     Handle vertices_, indices_, layout_;

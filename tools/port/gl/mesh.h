@@ -12,16 +12,16 @@ struct Vertex {
 };
 
 // Consecutive triangles with one state.
-struct Draw {
+struct DrawRange {
     std::uint32_t first_index = 0, index_count = 0;
     bool transparent = true, double_sided = true;
     bool mirrored = false;  // the model's matrix reverses the winding
 };
 
-struct Mesh {
+struct IndexedMesh {
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
-    std::vector<Draw> draws;
+    std::vector<DrawRange> draws;
 };
 
 }  // namespace strata::port

@@ -36,7 +36,7 @@ std::vector<std::size_t> numbers(const std::string& text) {
     return found;
 }
 
-const char* type_of(const Format& format) {
+const char* type_of(const PixelFormat& format) {
     const bool is_float = format.type == GL_FLOAT || format.type == GL_HALF_FLOAT;
     if (format.bytes == 1) return "|u1";
     if (format.bytes == 2) return is_float ? "<f2" : "<u2";

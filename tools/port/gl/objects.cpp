@@ -25,8 +25,8 @@ constexpr auto as_written = R"(#version 330 core
 
 struct Sampling {
     int samples = 1, shown = 0;
-    Shading shading = Shading::sample;
-    SampleLoads loads{};
+    ShadingRate shading = ShadingRate::sample;
+    SampleExpressions loads{};
 };
 Sampling& sampling() {
     static Sampling chosen;
@@ -38,7 +38,7 @@ GLenum texture_target() { return sampling().samples > 1 ? GL_TEXTURE_2D_MULTISAM
 // sample 0. A program that names its sample runs once for each.
 std::string sampled_head(bool is_full_screen) {
     const Sampling& chosen = sampling();
-    const bool is_once_a_pixel = chosen.shading == Shading::pixel && !is_full_screen;
+    const bool is_once_a_pixel = chosen.shading == ShadingRate::pixel && !is_full_screen;
     return fmt::format(
         "#extension GL_ARB_sample_shading : require\n"
         "#define sampler2D sampler2DMS\n"
@@ -85,7 +85,7 @@ Handle compile(GLenum kind, const std::string& text) {
     throw std::runtime_error("GLSL: " + log.substr(0, log.find('\0')) + "in\n" + text);
 }
 
-Handle texture_of(GLenum sized, GLenum external, GLenum type, Size size) {
+Handle texture_of(GLenum sized, GLenum external, GLenum type, FrameSize size) {
     GLuint name = 0;
     glGenTextures(1, &name);
     Handle handle{name, [](GLuint n) { glDeleteTextures(1, &n); }};
@@ -122,16 +122,16 @@ void require_complete() {
 
 }  // namespace
 
-const Format* find_format(const std::string& name) {
+const PixelFormat* find_format(const std::string& name) {
     static constexpr std::array all{rgba8, rgba16f, rgba32f, rg32f, r16f, r32f, d16, d24, d32f, s8};
-    for (const Format& format : all)
+    for (const PixelFormat& format : all)
         if (name == format.name) return &format;
     return nullptr;
 }
 
-void set_samples(int samples, int shown, Shading shading, const SampleLoads& loads) {
+void set_samples(int samples, int shown, ShadingRate shading, const SampleExpressions& loads) {
     sampling() = {samples, shown, shading, loads};
-    if (samples == 1 || shading == Shading::pixel) return;
+    if (samples == 1 || shading == ShadingRate::pixel) return;
     glEnable(GL_SAMPLE_SHADING);
     glMinSampleShading(1.0f);
 }
@@ -139,11 +139,11 @@ void set_samples(int samples, int shown, Shading shading, const SampleLoads& loa
 int samples_shown() { return sampling().shown; }
 int samples_per_pixel() { return sampling().samples; }
 
-Handle make_texture(const Format& format, Size size) {
+Handle make_texture(const PixelFormat& format, FrameSize size) {
     return texture_of(format.sized, format.external, format.type, size);
 }
 
-Handle make_depth_stencil(const Format& depth, Size size) {
+Handle make_depth_stencil(const PixelFormat& depth, FrameSize size) {
     if (depth == d32f)
         return texture_of(GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, size);
     if (depth == d24) return texture_of(GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, size);
@@ -224,7 +224,7 @@ std::uint64_t samples_passed(const Handle& query) {
     return samples;
 }
 
-PixelCodes read_sample(GLuint texture, int sample, const Format& format, Size size) {
+PixelCodes read_sample(GLuint texture, int sample, const PixelFormat& format, FrameSize size) {
     const OneSample copied;
     const Handle program = make_full_screen_program(
         fmt::format("uniform sampler2DMS source; out vec4 drawn;\n"
@@ -241,7 +241,7 @@ PixelCodes read_sample(GLuint texture, int sample, const Format& format, Size si
     return image;
 }
 
-PixelCodes read_samples(GLuint texture, const Format& format, Size size) {
+PixelCodes read_samples(GLuint texture, const PixelFormat& format, FrameSize size) {
     const int samples = sampling().samples;
     const auto pixel = static_cast<std::size_t>(format.channels * format.bytes);
     PixelCodes all{format, size, std::vector<std::uint8_t>(size.area() * pixel * static_cast<std::size_t>(samples)),
@@ -258,7 +258,7 @@ PixelCodes read_samples(GLuint texture, const Format& format, Size size) {
 namespace {
 
 // A copy with one sample, by the driver's own resolve; of srgb8 in linear light. The caller holds a OneSample.
-Handle resolved(GLuint texture, const Format& format, Size size) {
+Handle resolved(GLuint texture, const PixelFormat& format, FrameSize size) {
     const Handle source = new_framebuffer();
     attach(GL_COLOR_ATTACHMENT0, texture, GL_TEXTURE_2D_MULTISAMPLE);
     Handle copy = make_texture(format, size);
@@ -270,14 +270,14 @@ Handle resolved(GLuint texture, const Format& format, Size size) {
     return copy;
 }
 
-PixelCodes read_resolved(GLuint texture, const Format& format, Size size) {
+PixelCodes read_resolved(GLuint texture, const PixelFormat& format, FrameSize size) {
     const OneSample copied;
     return read_back(resolved(texture, format, size).name(), format, size);
 }
 
 }  // namespace
 
-void resolve_in_place(GLuint texture, const Format& format, Size size) {
+void resolve_in_place(GLuint texture, const PixelFormat& format, FrameSize size) {
     const OneSample copied;
     const Handle program = make_full_screen_program(
         "uniform sampler2D source; out vec4 drawn;\n"
@@ -290,7 +290,7 @@ void resolve_in_place(GLuint texture, const Format& format, Size size) {
     draw_full_screen(program);
 }
 
-void share_first_depth(GLuint texture, Size size) {
+void share_first_depth(GLuint texture, FrameSize size) {
     const OneSample copied;
     const PixelCodes first = read_sample(texture, 0, d32f, size);
     const Handle program = make_full_screen_program(
@@ -309,7 +309,7 @@ void share_first_depth(GLuint texture, Size size) {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-PixelCodes read_back(GLuint texture, const Format& format, Size size) {
+PixelCodes read_back(GLuint texture, const PixelFormat& format, FrameSize size) {
     if (sampling().samples > 1)
         return sampling().shown < 0 ? read_resolved(texture, format, size)
                                     : read_sample(texture, sampling().shown, format, size);

@@ -10,7 +10,7 @@
 
 namespace strata::port {
 
-struct Size {
+struct FrameSize {
     int width = 0, height = 0;
     [[nodiscard]] std::size_t area() const {
         return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -18,34 +18,34 @@ struct Size {
 };
 
 // The storage format of a target, and the format in which its codes are read back.
-struct Format {
+struct PixelFormat {
     const char* name = "";
     GLenum sized = 0, external = 0, type = 0;
     int channels = 0, bytes = 0;  // bytes: of a channel in client memory
-    friend bool operator==(const Format&, const Format&) = default;
+    friend bool operator==(const PixelFormat&, const PixelFormat&) = default;
 };
-inline constexpr Format rgba8{"rgba8", GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, 1};
-inline constexpr Format rgba16f{"rgba16f", GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 4, 2};
-inline constexpr Format rgba32f{"rgba32f", GL_RGBA32F, GL_RGBA, GL_FLOAT, 4, 4};
-inline constexpr Format rg16f{"rg16f", GL_RG16F, GL_RG, GL_HALF_FLOAT, 2, 2};
-inline constexpr Format rg32f{"rg32f", GL_RG32F, GL_RG, GL_FLOAT, 2, 4};
-inline constexpr Format r8{"r8", GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1, 1};
-inline constexpr Format r16f{"r16f", GL_R16F, GL_RED, GL_HALF_FLOAT, 1, 2};
-inline constexpr Format r32f{"r32f", GL_R32F, GL_RED, GL_FLOAT, 1, 4};
-inline constexpr Format srgb8{"srgb8", GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, 1};
-inline constexpr Format d16{"d16", GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT, 1, 2};
+inline constexpr PixelFormat rgba8{"rgba8", GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, 1};
+inline constexpr PixelFormat rgba16f{"rgba16f", GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 4, 2};
+inline constexpr PixelFormat rgba32f{"rgba32f", GL_RGBA32F, GL_RGBA, GL_FLOAT, 4, 4};
+inline constexpr PixelFormat rg16f{"rg16f", GL_RG16F, GL_RG, GL_HALF_FLOAT, 2, 2};
+inline constexpr PixelFormat rg32f{"rg32f", GL_RG32F, GL_RG, GL_FLOAT, 2, 4};
+inline constexpr PixelFormat r8{"r8", GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1, 1};
+inline constexpr PixelFormat r16f{"r16f", GL_R16F, GL_RED, GL_HALF_FLOAT, 1, 2};
+inline constexpr PixelFormat r32f{"r32f", GL_R32F, GL_RED, GL_FLOAT, 1, 4};
+inline constexpr PixelFormat srgb8{"srgb8", GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, 1};
+inline constexpr PixelFormat d16{"d16", GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT, 1, 2};
 // Read back as the upper bits of a word; read_back() shifts them down.
-inline constexpr Format d24{"d24", GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 1, 4};
-inline constexpr Format d32f{"d32f", GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 1, 4};
-inline constexpr Format s8{"s8", 0, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, 1, 1};  // of a depth-stencil texture
+inline constexpr PixelFormat d24{"d24", GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 1, 4};
+inline constexpr PixelFormat d32f{"d32f", GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 1, 4};
+inline constexpr PixelFormat s8{"s8", 0, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, 1, 1};  // of a depth-stencil texture
 
 // nullptr if no format above has the name.
-[[nodiscard]] const Format* find_format(const std::string& name);
+[[nodiscard]] const PixelFormat* find_format(const std::string& name);
 
 // Codes in memory: rows from row 0, interleaved channels, little endian.
 struct PixelCodes {
-    Format format;
-    Size size;
+    PixelFormat format;
+    FrameSize size;
     std::vector<std::uint8_t> bytes;
     int samples = 1;  // of each pixel, one after the other
 };
@@ -76,23 +76,24 @@ class Handle {
 
 // How often geometry passes run their program: once a sample, which loads its own, or once a pixel, which loads sample
 // 0. Full-screen passes always run once a sample.
-enum class Shading : std::uint8_t { sample, pixel };
+enum class ShadingRate : std::uint8_t { sample, pixel };
 
 // GLSL expressions for the sample that programs load of earlier passes, with sample shading.
-struct SampleLoads {
+struct SampleExpressions {
     const char *geometry = "gl_SampleID", *full_screen = "gl_SampleID";
 };
 
 // From now on every texture and program has `samples` samples per pixel. read_back() returns sample `shown`, or for -1
 // the resolve of all. Formats are then rgba8, srgb8, floats and d32f. With 1 nothing changes.
-void set_samples(int samples, int shown, Shading shading = Shading::sample, const SampleLoads& loads = {});
+void set_samples(int samples, int shown, ShadingRate shading = ShadingRate::sample,
+                 const SampleExpressions& loads = {});
 [[nodiscard]] int samples_shown();
 [[nodiscard]] int samples_per_pixel();
 
 // A two-dimensional texture without mipmaps, with nearest filtering and undefined contents.
-[[nodiscard]] Handle make_texture(const Format& format, Size size);
+[[nodiscard]] Handle make_texture(const PixelFormat& format, FrameSize size);
 // A depth texture with a stencil; d24 or d32f.
-[[nodiscard]] Handle make_depth_stencil(const Format& depth, Size size);
+[[nodiscard]] Handle make_depth_stencil(const PixelFormat& depth, FrameSize size);
 // A query of GL_SAMPLES_PASSED.
 [[nodiscard]] Handle make_query();
 
@@ -124,17 +125,17 @@ void bind(std::initializer_list<GLuint> textures);
 [[nodiscard]] std::uint64_t samples_passed(const Handle& query);
 
 // One sample of a multisampled texture, independent of set_samples.
-[[nodiscard]] PixelCodes read_sample(GLuint texture, int sample, const Format& format, Size size);
+[[nodiscard]] PixelCodes read_sample(GLuint texture, int sample, const PixelFormat& format, FrameSize size);
 // All samples of a texture of set_samples.
-[[nodiscard]] PixelCodes read_samples(GLuint texture, const Format& format, Size size);
+[[nodiscard]] PixelCodes read_samples(GLuint texture, const PixelFormat& format, FrameSize size);
 
 // Replaces all samples of a colour by their resolve, as if the texture had one sample.
-void resolve_in_place(GLuint texture, const Format& format, Size size);
+void resolve_in_place(GLuint texture, const PixelFormat& format, FrameSize size);
 // Replaces all samples of a depth by sample 0.
-void share_first_depth(GLuint texture, Size size);
+void share_first_depth(GLuint texture, FrameSize size);
 
 // A texture's codes; s8: the stencil of a depth-stencil texture.
-[[nodiscard]] PixelCodes read_back(GLuint texture, const Format& format, Size size);
+[[nodiscard]] PixelCodes read_back(GLuint texture, const PixelFormat& format, FrameSize size);
 
 // Throws std::runtime_error with OpenGL's error, if there is one, and the action `doing`.
 void check_errors(const std::string& doing);

@@ -61,9 +61,9 @@ Manifest load(const std::string& folder) {
 }
 
 // Returns `usual` if the value is null.
-Format format_at(const Manifest& manifest, const std::string& place, const Format& usual) {
+PixelFormat format_at(const Manifest& manifest, const std::string& place, const PixelFormat& usual) {
     if (manifest.at(place).is_null()) return usual;
-    const Format* const format = find_format(manifest.text(place));
+    const PixelFormat* const format = find_format(manifest.text(place));
     if (format == nullptr) manifest.refuse(place, "a format that OpenGL stores", manifest.text(place));
     return *format;
 }
@@ -119,7 +119,7 @@ void check_material(const Manifest& manifest, std::uint32_t number) {
         manifest.refuse(place + "/alpha_mode", "opaque or blend: the port has no alpha test", "mask");
 }
 
-void append_vertices(const Manifest& manifest, const std::string& place, Mesh& mesh) {
+void append_vertices(const Manifest& manifest, const std::string& place, IndexedMesh& mesh) {
     const auto clip = read_rows<float>(manifest.array(place + "/clip"), "f4", 4);
     const auto front = read_rows<float>(manifest.array(place + "/front"), "f4", 4);
     const auto back = read_rows<float>(manifest.array(place + "/back"), "f4", 4);
@@ -133,7 +133,7 @@ void append_vertices(const Manifest& manifest, const std::string& place, Mesh& m
 }
 
 // Appends the vertices, then merges consecutive triangles with equal flags into one draw.
-void append_draws(const Manifest& manifest, const std::string& place, Mesh& mesh) {
+void append_draws(const Manifest& manifest, const std::string& place, IndexedMesh& mesh) {
     constexpr unsigned double_sided = 1, mirrored = 2;
     const auto first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
     append_vertices(manifest, place, mesh);

@@ -16,8 +16,8 @@ struct PackSampling {
 
 // The data that the port uses. Reading rejects every feature of a pack that the port cannot draw.
 struct Pack {
-    Mesh mesh;
-    Size size;
+    IndexedMesh mesh;
+    FrameSize size;
     TargetFormats formats;
     std::array<float, 4> background{0, 0, 0, 1};
     bool zero_to_one = false;  // clip depths

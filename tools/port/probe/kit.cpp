@@ -30,8 +30,8 @@ std::array<float, 2> pair_of(const json& digits) {
     return {std::bit_cast<float>(words.at(0)), std::bit_cast<float>(words.at(1))};
 }
 
-Format format_of(const json& name) {
-    const Format* const format = find_format(name.get<std::string>());
+PixelFormat format_of(const json& name) {
+    const PixelFormat* const format = find_format(name.get<std::string>());
     if (format == nullptr) throw std::runtime_error("expected a target's format, found " + name.dump());
     return *format;
 }

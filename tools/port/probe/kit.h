@@ -29,9 +29,9 @@ struct KitDraw {
 
 struct KitItem {
     std::string name;
-    Size size;
-    Format color;
-    std::optional<Format> depth;
+    FrameSize size;
+    PixelFormat color;
+    std::optional<PixelFormat> depth;
     std::array<float, 2> depth_range{0, 1};
     std::array<float, 4> clear{};
     std::vector<KitDraw> draws;

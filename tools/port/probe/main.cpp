@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-struct Options {
+struct ProbePortOptions {
     std::string kit, output, driver = "llvmpipe";
     std::vector<int> samples;
 };
@@ -95,7 +95,7 @@ void answer_multisampled(const Kit& kit, const std::vector<int>& numbers, const 
     std::ofstream(folder / "samples.json") << answers.dump(1) << "\n";
 }
 
-int run(const Options& options) {
+int run(const ProbePortOptions& options) {
     if (fs::exists(options.output)) throw std::runtime_error(options.output + ": expected no such folder, found one");
     const Kit kit = read_kit(options.kit);
     const fs::path made = options.output + ".part";
@@ -121,7 +121,7 @@ int run(const Options& options) {
 
 int main(int count, char** words) {
     CLI::App app{"Draws the scenes of a kit by OpenGL and writes the answers.", "strata_port_probe"};
-    strata::port::Options options;
+    strata::port::ProbePortOptions options;
     app.add_option("KIT", options.kit, "a folder that strata probe wrote")->required();
     app.add_option("-o,--output", options.output, "the answers: a folder that does not exist")->required();
     app.add_option("--driver", options.driver,

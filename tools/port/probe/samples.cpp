@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-Handle make_sampled_texture(GLenum sized, Size size, int samples) {
+Handle make_sampled_texture(GLenum sized, FrameSize size, int samples) {
     GLuint name = 0;
     glGenTextures(1, &name);
     Handle handle{name, [](GLuint n) { glDeleteTextures(1, &n); }};
@@ -55,7 +55,7 @@ void answer(const KitItem& item, const Painter& painter, int samples, const fs::
 
 }  // namespace
 
-SampledTarget::SampledTarget(Size size, int samples)
+SampledTarget::SampledTarget(FrameSize size, int samples)
     : size_{size},
       color_{make_sampled_texture(GL_RGBA8, size, samples)},
       depth_{make_sampled_texture(GL_DEPTH_COMPONENT32F, size, samples)},

@@ -14,7 +14,7 @@ namespace strata::port {
 class SampledTarget {
   public:
     // Throws std::runtime_error if OpenGL does not support such a target.
-    SampledTarget(Size size, int samples);
+    SampledTarget(FrameSize size, int samples);
 
     // Samples per pixel: at least the requested number.
     [[nodiscard]] int samples() const noexcept { return samples_; }
@@ -26,7 +26,7 @@ class SampledTarget {
     [[nodiscard]] PixelCodes depth(int sample) const;
 
   private:
-    Size size_;
+    FrameSize size_;
     int samples_ = 0;
     Handle color_, depth_, framebuffer_;
 };

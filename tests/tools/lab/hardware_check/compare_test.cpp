@@ -23,7 +23,7 @@ void paint(Image& image, int x, int y, const Bytes4& color) {
 
 // A drawn depth picture with one value at (5, 7), and a capture with one pixel there.
 struct OneWord {
-    Picture drawn;
+    SuitePicture drawn;
     Image capture = blank(Format::rgba8);
     OneWord(CaptureFormat reading, std::uint32_t depth, std::optional<std::uint32_t> stencil, const Bytes4& pixel) {
         drawn.reading = reading;
@@ -35,11 +35,11 @@ struct OneWord {
         }
         paint(capture, 5, 7, pixel);
     }
-    [[nodiscard]] Comparison compared() const { return compare(drawn, capture, "c.png"); }
+    [[nodiscard]] CaptureComparison compared() const { return compare(drawn, capture, "c.png"); }
 };
 
-Picture colored(const Bytes4& background) {
-    Picture picture;
+SuitePicture colored(const Bytes4& background) {
+    SuitePicture picture;
     picture.image = blank(Format::rgba8);
     for (int y = 0; y < picture_height; ++y)
         for (int x = 0; x < picture_width; ++x) paint(picture.image, x, y, background);
@@ -83,7 +83,7 @@ TEST_CASE("a 24-bit depth is read from channels A R G with the highest byte firs
 }
 
 TEST_CASE("for a picture that is read as drawn or not only the covered pixels are compared and not their colours") {
-    Picture picture = colored({1, 2, 3, 4});
+    SuitePicture picture = colored({1, 2, 3, 4});
     picture.reading = CaptureFormat::drawn;
     Image capture = picture.image;
     paint(picture.image, 10, 20, {9, 9, 9, 9});
@@ -91,7 +91,7 @@ TEST_CASE("for a picture that is read as drawn or not only the covered pixels ar
     CHECK(compare(picture, capture, "c.png").differing == 0);
     paint(capture, 11, 20, {1, 2, 3, 5});
     paint(picture.image, 12, 20, {0, 2, 3, 4});
-    const Comparison found = compare(picture, capture, "c.png");
+    const CaptureComparison found = compare(picture, capture, "c.png");
     CHECK(found.histogram == Histogram{{-1, 1}, {1, 1}});
     CHECK(found.first == std::array{11, 20});
 }
@@ -99,12 +99,12 @@ TEST_CASE("for a picture that is read as drawn or not only the covered pixels ar
 TEST_CASE("colours differ by their largest channel difference in any of the four channels and in either direction") {
     for (std::size_t channel = 0; channel < 4; ++channel)
         for (const bool is_more : {false, true}) {
-            const Picture picture = colored({100, 100, 100, 100});
+            const SuitePicture picture = colored({100, 100, 100, 100});
             Image capture = picture.image;
             Bytes4 pixel{101, 99, 100, 101};
             pixel[channel] = is_more ? 117 : 83;
             paint(capture, 639, 479, pixel);
-            const Comparison found = compare(picture, capture, "c.png");
+            const CaptureComparison found = compare(picture, capture, "c.png");
             CHECK(found.histogram == Histogram{{17, 1}});
             CHECK(found.largest == 17);
             CHECK(found.first == std::array{639, 479});
@@ -113,7 +113,7 @@ TEST_CASE("colours differ by their largest channel difference in any of the four
 }
 
 TEST_CASE("a difference is within the bound if neither the pixel count nor the largest difference exceeds it") {
-    Picture picture = colored({0, 0, 0, 255});
+    SuitePicture picture = colored({0, 0, 0, 255});
     Image capture = picture.image;
     for (int x = 0; x < 3; ++x) paint(capture, x, 0, {4, 0, 0, 255});
     for (const std::uint64_t pixels : {0, 2, 3, 4})
@@ -129,7 +129,7 @@ TEST_CASE(
     "labels are white with alpha 0 in pictures of colours and coverage and such pixels are values in depth pictures") {
     for (const CaptureFormat reading :
          {CaptureFormat::color, CaptureFormat::drawn, CaptureFormat::depth16, CaptureFormat::depth24}) {
-        Picture picture = colored({0, 0, 0, 0});
+        SuitePicture picture = colored({0, 0, 0, 0});
         picture.reading = reading;
         if (reading == CaptureFormat::depth16) picture.image = blank(Format::d16);
         if (reading == CaptureFormat::depth24) picture.image = blank(Format::d24);
@@ -145,7 +145,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a hidden rectangle includes its left and upper sides and excludes its right and lower ones") {
-    Picture picture = colored({0, 0, 0, 255});
+    SuitePicture picture = colored({0, 0, 0, 255});
     picture.hidden = {{100, 200, 103, 202}, {0, 0, 1, 1}};
     for (const auto& [x, y, is_hidden] : {std::tuple{100, 200, true},
                                           {102, 201, true},
@@ -156,7 +156,7 @@ TEST_CASE("a hidden rectangle includes its left and upper sides and excludes its
                                           {0, 0, true}}) {
         Image capture = picture.image;
         paint(capture, x, y, {1, 0, 0, 255});
-        const Comparison found = compare(picture, capture, "c.png");
+        const CaptureComparison found = compare(picture, capture, "c.png");
         CHECK(found.differing == (is_hidden ? 0u : 1u));
         CHECK(found.compared == 640 * 480 - 7);
         CHECK((digest_outside({}, picture, capture) == digest_outside({}, picture)) == is_hidden);
@@ -182,7 +182,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a capture of another size or format is rejected with the name of the file and what it contains") {
-    const Picture picture = colored({0, 0, 0, 0});
+    const SuitePicture picture = colored({0, 0, 0, 0});
     const auto said = [&](const Image& capture) {
         try {
             static_cast<void>(compare(picture, capture, "dir/c.png"));

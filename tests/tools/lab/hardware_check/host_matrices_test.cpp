@@ -116,11 +116,11 @@ TEST_CASE(
     const auto picture = [](const char* name) {
         return *find_suite("W_buffering")->draw(name, *strata::pipeline::find_profile("geforce3")).picture;
     };
-    const Picture small = picture("ZBuf16F_FloorQuad_V0_ZB0_ZS0_ZB");
+    const SuitePicture small = picture("ZBuf16F_FloorQuad_V0_ZB0_ZS0_ZB");
     CHECK(std::all_of(small.image.codes.begin(), small.image.codes.end(), [](std::uint32_t c) { return c == 0xffff; }));
     // w is not affected by the depth scale, so both formats store the same w.
-    const Picture fixed = picture("WBuf24D_FloorQuad_V0_ZB0_ZS0_ZB"),
-                  large = picture("WBuf24F_FloorQuad_V0_ZB0_ZS0_ZB");
+    const SuitePicture fixed = picture("WBuf24D_FloorQuad_V0_ZB0_ZS0_ZB"),
+                       large = picture("WBuf24F_FloorQuad_V0_ZB0_ZS0_ZB");
     std::size_t wrong = 0, drawn = 0;
     for (std::size_t i = 0; i < fixed.image.codes.size(); ++i) {
         if (fixed.image.codes[i] == 0xffffff) continue;

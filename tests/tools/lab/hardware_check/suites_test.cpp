@@ -132,14 +132,14 @@ TEST_CASE("with all bits of a vertex colour the greys of the capture are not rep
 TEST_CASE("a difference is counted and located and its size compared with the bound") {
     const Drawing drawing = find_suite("Front_face")->draw("FrontFace_CW_CF_B", geforce3());
     REQUIRE(drawing.picture);
-    Picture picture = *drawing.picture;
+    SuitePicture picture = *drawing.picture;
     picture.reading = CaptureFormat::color;
     pipeline::Image capture = picture.image;
     capture.codes[capture.index(7, 9, 2)] += 5;
     capture.codes[capture.index(3, 11, 0)] += 2;
     const std::size_t label = capture.index(600, 11);
     for (std::size_t c = 0; c < 4; ++c) capture.codes[label + c] = c == 3 ? 0 : 255;
-    const Comparison found = compare(picture, capture, "capture.png");
+    const CaptureComparison found = compare(picture, capture, "capture.png");
     CHECK(found.compared == 640 * 480 - 1);
     CHECK(found.differing == 2);
     CHECK(found.largest == 5);
@@ -190,7 +190,7 @@ TEST_CASE("the two-dimensional shadow stage of the chip compares r = 0 and ignor
 
 TEST_CASE("hidden rectangles are excluded from the comparison and the digest") {
     const Row row{"Texture_shadow_comparator", "3R16_100-200_180_EQ", "", {}};
-    const Picture drawn = *find_suite(row.suite)->draw(row.picture, geforce3()).picture;
+    const SuitePicture drawn = *find_suite(row.suite)->draw(row.picture, geforce3()).picture;
     pipeline::Image capture = drawn.image;
     capture.codes[capture.index(150, 250, 1)] ^= 0x80u;
     CHECK(compare(drawn, capture, "capture.png").differing == 0);

@@ -37,7 +37,7 @@ TEST_CASE("a guard band is found exactly from the triangles that it clips") {
     const std::vector<Item> items = guard_band_scenes();
     for (const int band : {600, 811, 200'001}) {
         const ProbePack pack = answer(with_band(band), items, {YDirection::down});
-        const Comparison device{pack, items, YDirection::down};
+        const KitComparison device{pack, items, YDirection::down};
         Scores scores{device};
         BandSearch search{scores};
         CHECK(search.best(with_band(16384), device.items_of({""}), Part::both) == band);
@@ -50,7 +50,7 @@ TEST_CASE("the search for a guard band that nothing explains ends when its scene
     const std::vector<Item> items = guard_band_scenes();
     ProbePack pack = answer(with_band(5000), items, {YDirection::down});
     spoil_beyond(pack, 5000);
-    const Comparison device{pack, items, YDirection::down};
+    const KitComparison device{pack, items, YDirection::down};
     Scores scores{device};
     BandSearch search{scores, 100};
     const Numbers all = device.items_of({""});

@@ -93,7 +93,7 @@ TEST_CASE("a 24-bit depth image read as binary32 becomes d24 if every texel is n
         }
         // Drawn by a profile with a binary32 depth buffer: if the pack holds codes, its floats are converted to the
         // nearest codes before the comparison.
-        const Comparison held{read, items, YDirection::down};
+        const KitComparison held{read, items, YDirection::down};
         pipeline::DeviceProfile floats = device;
         floats.depth24 = pipeline::Depth24::binary32;
         for (const std::size_t i : held.items_of({"depth.d24"})) {

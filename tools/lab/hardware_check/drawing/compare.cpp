@@ -40,7 +40,7 @@ Row row_of(const Image& image, int y, F&& word) {
 std::uint32_t packed_codes(const std::uint32_t* c) { return c[0] | c[1] << 8 | c[2] << 16 | c[3] << 24; }
 
 // The words of a row of the drawn picture; their_row() is the same for the capture.
-Row our_row(const Picture& drawn, int y) {
+Row our_row(const SuitePicture& drawn, int y) {
     switch (drawn.reading) {
         case CaptureFormat::color: return row_of(drawn.image, y, packed_codes);
         case CaptureFormat::drawn: {
@@ -61,7 +61,7 @@ Row our_row(const Picture& drawn, int y) {
 
 // A capture is always rgba8. Depth is unpacked as described in compare.h; if the drawn picture has no stencil, the
 // capture's stencil byte is replaced by 0.
-Row their_row(const Picture& drawn, const Image& capture, int y) {
+Row their_row(const SuitePicture& drawn, const Image& capture, int y) {
     using Codes = const std::uint32_t*;
     switch (drawn.reading) {
         case CaptureFormat::color: return row_of(capture, y, packed_codes);
@@ -79,14 +79,14 @@ Row their_row(const Picture& drawn, const Image& capture, int y) {
     return {};  // unreachable: the enum is closed
 }
 
-bool is_hidden(const Picture& drawn, int x, int y) {
+bool is_hidden(const SuitePicture& drawn, int x, int y) {
     return std::any_of(drawn.hidden.begin(), drawn.hidden.end(),
                        [&](const rasterizer::Rect& r) { return contains(r, x, y); });
 }
 
 // 1 if a capture's pixel is a label, else 0. `theirs` is their_row() of the same row: for CaptureFormat::color its
 // words are the colours.
-Row labels_of(const Picture& drawn, const Image& capture, const Row& theirs, int y) {
+Row labels_of(const SuitePicture& drawn, const Image& capture, const Row& theirs, int y) {
     if (!reads_color(drawn.reading)) return {};
     Row labels = drawn.reading == CaptureFormat::color ? theirs : row_of(capture, y, packed_codes);
     const std::uint32_t other = drawn.overdrawn ? packed(*drawn.overdrawn) : label;
@@ -101,7 +101,7 @@ struct RowPair {
 
 // Calls f(y, row of both pictures), from the top.
 template <class F>
-void for_each_row(const Picture& drawn, const Image& capture, F&& f) {
+void for_each_row(const SuitePicture& drawn, const Image& capture, F&& f) {
     RowPair row;
     for (int y = 0; y < picture_height; ++y) {
         row.ours = our_row(drawn, y);
@@ -113,7 +113,7 @@ void for_each_row(const Picture& drawn, const Image& capture, F&& f) {
 
 // Calls f(x, y, is a label, our word, their word), row by row from the top.
 template <class F>
-void for_each_pixel(const Picture& drawn, const Image& capture, F&& f) {
+void for_each_pixel(const SuitePicture& drawn, const Image& capture, F&& f) {
     for_each_row(drawn, capture, [&](int y, const RowPair& row) {
         for (std::size_t x = 0; x < picture_width; ++x)
             f(static_cast<int>(x), y, row.labels[x] != 0, row.ours[x], row.theirs[x]);
@@ -134,7 +134,7 @@ std::int64_t difference(CaptureFormat reading, std::uint32_t ours, std::uint32_t
 }
 
 template <class Words>
-std::string digest_of(const Picture& drawn, const rasterizer::Rect& box, Words&& row_of_words) {
+std::string digest_of(const SuitePicture& drawn, const rasterizer::Rect& box, Words&& row_of_words) {
     Image words{Format::r32f, picture_width, picture_height};
     for (int y = 0; y < picture_height; ++y) {
         const Row row = row_of_words(y);
@@ -146,7 +146,7 @@ std::string digest_of(const Picture& drawn, const rasterizer::Rect& box, Words&&
 }
 
 // Counts a row's pixels and records the differences.
-void add_row(Comparison& result, const Picture& drawn, int y, const RowPair& row) {
+void add_row(CaptureComparison& result, const SuitePicture& drawn, int y, const RowPair& row) {
     for (std::size_t i = 0; i < picture_width; ++i) {
         const int x = static_cast<int>(i);
         if (row.labels[i] != 0 || is_hidden(drawn, x, y)) continue;
@@ -166,12 +166,12 @@ void add_row(Comparison& result, const Picture& drawn, int y, const RowPair& row
 
 }  // namespace
 
-Comparison compare(const Picture& drawn, const Image& capture, const std::string& path) {
+CaptureComparison compare(const SuitePicture& drawn, const Image& capture, const std::string& path) {
     if (capture.format != Format::rgba8 || capture.width != picture_width || capture.height != picture_height)
         throw InputError{path, "picture", "640 x 480 pixels of 8-bit r g b a",
                          std::to_string(capture.width) + " x " + std::to_string(capture.height) + " pixels of " +
                              std::string{pipeline::info(capture.format).name}};
-    Comparison result;
+    CaptureComparison result;
     for_each_row(drawn, capture, [&](int y, const RowPair& row) {
         // Most rows are equal, and then only labels are counted.
         if (drawn.hidden.empty() && row.ours == row.theirs)
@@ -183,7 +183,7 @@ Comparison compare(const Picture& drawn, const Image& capture, const std::string
     return result;
 }
 
-Image difference_picture(const Picture& drawn, const Image& capture) {
+Image difference_picture(const SuitePicture& drawn, const Image& capture) {
     Image shown{Format::rgba8, picture_width, picture_height};
     for_each_pixel(drawn, capture, [&](int x, int y, bool is_label, std::uint32_t ours, std::uint32_t theirs) {
         const std::int64_t d = difference(drawn.reading, ours, theirs);
@@ -200,7 +200,7 @@ Image difference_picture(const Picture& drawn, const Image& capture) {
     return shown;
 }
 
-rasterizer::Rect label_box(const Picture& drawn, const Image& capture) {
+rasterizer::Rect label_box(const SuitePicture& drawn, const Image& capture) {
     rasterizer::Rect box{picture_width, picture_height, 0, 0};
     for_each_pixel(drawn, capture, [&](int x, int y, bool is_label, std::uint32_t, std::uint32_t) {
         if (is_label)
@@ -209,10 +209,10 @@ rasterizer::Rect label_box(const Picture& drawn, const Image& capture) {
     return box.area() == 0 ? rasterizer::Rect{} : box;
 }
 
-std::string digest_outside(const rasterizer::Rect& box, const Picture& drawn) {
+std::string digest_outside(const rasterizer::Rect& box, const SuitePicture& drawn) {
     return digest_of(drawn, box, [&](int y) { return our_row(drawn, y); });
 }
-std::string digest_outside(const rasterizer::Rect& box, const Picture& drawn, const Image& capture) {
+std::string digest_outside(const rasterizer::Rect& box, const SuitePicture& drawn, const Image& capture) {
     return digest_of(drawn, box, [&](int y) { return their_row(drawn, capture, y); });
 }
 

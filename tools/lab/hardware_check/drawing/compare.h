@@ -17,7 +17,7 @@
 namespace strata::hardware_check {
 
 // The result for one picture. Counts are of pixels.
-struct Comparison {
+struct CaptureComparison {
     std::uint64_t compared = 0, differing = 0;
     // The largest difference of a pixel: 1/255 for a colour, else units of depth with the stencil in the low byte.
     std::uint32_t largest = 0;
@@ -27,22 +27,23 @@ struct Comparison {
     // x, y of the first differing pixel, in rows from the top, and both words there.
     std::array<int, 2> first{};
     std::uint32_t ours = 0, theirs = 0;
-    // At most as many pixels differ as `Picture::bound` allows, each by at most its units.
+    // At most as many pixels differ as `SuitePicture::bound` allows, each by at most its units.
     bool within_bound = false;
 };
 
 // `capture` is rgba8. Throws InputError, which names `path`, if its size differs.
-[[nodiscard]] Comparison compare(const Picture& drawn, const pipeline::Image& capture, const std::string& path);
+[[nodiscard]] CaptureComparison compare(const SuitePicture& drawn, const pipeline::Image& capture,
+                                        const std::string& path);
 
 // For viewing: differences, red if the capture's value is larger and cyan if it is smaller; labels are white.
-[[nodiscard]] pipeline::Image difference_picture(const Picture& drawn, const pipeline::Image& capture);
+[[nodiscard]] pipeline::Image difference_picture(const SuitePicture& drawn, const pipeline::Image& capture);
 
 // The bounding rectangle of all label pixels; empty if there are none.
-[[nodiscard]] rasterizer::Rect label_box(const Picture& drawn, const pipeline::Image& capture);
+[[nodiscard]] rasterizer::Rect label_box(const SuitePicture& drawn, const pipeline::Image& capture);
 // Digest of the words outside a rectangle and the hidden ones, with those inside replaced by 0: of the picture, or of
 // the capture.
-[[nodiscard]] std::string digest_outside(const rasterizer::Rect& box, const Picture& drawn);
-[[nodiscard]] std::string digest_outside(const rasterizer::Rect& box, const Picture& drawn,
+[[nodiscard]] std::string digest_outside(const rasterizer::Rect& box, const SuitePicture& drawn);
+[[nodiscard]] std::string digest_outside(const rasterizer::Rect& box, const SuitePicture& drawn,
                                          const pipeline::Image& capture);
 
 }  // namespace strata::hardware_check

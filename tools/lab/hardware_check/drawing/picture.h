@@ -42,7 +42,7 @@ struct Bound {
 };
 
 // The picture that a suite drew for one name, and how it is compared.
-struct Picture {
+struct SuitePicture {
     CaptureFormat reading = CaptureFormat::color;
     // rgba8 for colours; else the depth buffer in its own format.
     pipeline::Image image{};
@@ -66,7 +66,7 @@ inline constexpr std::string_view unknown_name_reason = "no picture of this name
 
 // A picture, or the reason why it is not modelled.
 struct Drawing {
-    std::optional<Picture> picture;
+    std::optional<SuitePicture> picture;
     std::string reason;
 };
 

@@ -40,7 +40,7 @@ Drawing draw_alpha_func(std::string_view name, const pipeline::DeviceProfile& pr
     surface.draw(state, ramp(top + 128, {0, 1, 0, 0.495f}, {0, 1, 0, 0.505f}));
     // Alpha 7F equals the reference: EQUAL, LEQUAL and GEQUAL pass here, LESS and GREATER do not.
     surface.draw(state, box({0, top + 192, 640, top + 224}, 0x7fffffff));
-    return {Picture{.image = surface.color()}, {}};
+    return {SuitePicture{.image = surface.color()}, {}};
 }
 
 }  // namespace strata::hardware_check

@@ -28,7 +28,7 @@ TriangleSoup diamond(float shift, const std::array<float, 4>& color) {
 }
 
 // The CPU writes the whole window, whatever surface was there before.
-Picture written(const pipeline::DeviceProfile& profile, Argb first, Argb second) {
+SuitePicture written(const pipeline::DeviceProfile& profile, Argb first, Argb second) {
     pipeline::Surface window{profile, {}};
     window.fill([&](int x, int y) { return unpack((x / cell + y / cell) % 2 == 0 ? first : second); });
     return {.image = window.color()};
@@ -36,7 +36,7 @@ Picture written(const pipeline::DeviceProfile& profile, Argb first, Argb second)
 
 // The CPU wrote the texture; then a surface of some number of samples was there, into which an empty triangle was
 // drawn.
-Picture textured(const pipeline::DeviceProfile& profile, const pipeline::Texture& texture) {
+SuitePicture textured(const pipeline::DeviceProfile& profile, const pipeline::Texture& texture) {
     pipeline::Surface window{profile, {}};
     window.clear_color(unpack(background));
     window.draw({.texture = &texture}, diamond(0, {1, 1, 1, 1}));
@@ -66,9 +66,9 @@ pipeline::Image drawn(const pipeline::DeviceProfile& profile, float shift) {
 
 // Two samples per pixel: a row of the surface is twice as long as one of the window, and has the corner and the centre
 // of every pixel alternately. The display shows these bytes as rows of the window.
-Picture drawn_with_two_samples(const pipeline::DeviceProfile& profile) {
+SuitePicture drawn_with_two_samples(const pipeline::DeviceProfile& profile) {
     const pipeline::Image corners = drawn(profile, 0.5f), centres = drawn(profile, 0);
-    Picture picture{.image = pipeline::Image{pipeline::Format::rgba8, picture_width, picture_height}};
+    SuitePicture picture{.image = pipeline::Image{pipeline::Format::rgba8, picture_width, picture_height}};
     for (int y = 0; y < picture_height; ++y)
         for (int x = 0; x < picture_width; ++x) {
             const int sample = y % 2 * picture_width + x;  // in its row of the surface
@@ -92,7 +92,7 @@ Drawing draw_antialiasing(std::string_view name, const pipeline::DeviceProfile& 
         if (name == "Center1" || name == "CenterCorner2" || name == "SquareOffset4")
             return {textured(profile, bordered()), {}};
     }
-    if (name == "FBSurfaceWithCenter1") return {Picture{.image = drawn(profile, 0)}, {}};
+    if (name == "FBSurfaceWithCenter1") return {SuitePicture{.image = drawn(profile, 0)}, {}};
     if (name == "FBSurfaceWithCenterCorner2") return {drawn_with_two_samples(profile), {}};
     if (name == "GPUAAWriteAfterCPUWrite")
         return {std::nullopt, "the samples of a surface of four, whose positions no capture shows"};

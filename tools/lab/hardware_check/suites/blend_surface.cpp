@@ -16,20 +16,20 @@ using pipeline::BlendFactor;
 using pipeline::Format;
 
 // A surface format, and the value of the bits of a pixel that store neither colour nor alpha.
-struct Layout {
+struct BlendedLayout {
     std::string_view name;
     Format format;
     // True: unused bits are written as 1, and the texture unit reads them as alpha. False: they are 0.
     bool ones = false;
 };
-constexpr Layout layouts[] = {{"ARGB8", Format::rgba8},
-                              {"R5G6B5", Format::r5g6b5},
-                              {"XA_Z1A7RGB8", Format::x1a7r8g8b8, false},
-                              {"XA_O1A7RGB8", Format::x1a7r8g8b8, true},
-                              {"X_ZRGB8", Format::x8r8g8b8, false},
-                              {"X_ORGB8", Format::x8r8g8b8, true},
-                              {"X_Z1RGB5", Format::x1r5g5b5, false},
-                              {"X_O1RGB5", Format::x1r5g5b5, true}};
+constexpr BlendedLayout layouts[] = {{"ARGB8", Format::rgba8},
+                                     {"R5G6B5", Format::r5g6b5},
+                                     {"XA_Z1A7RGB8", Format::x1a7r8g8b8, false},
+                                     {"XA_O1A7RGB8", Format::x1a7r8g8b8, true},
+                                     {"X_ZRGB8", Format::x8r8g8b8, false},
+                                     {"X_ORGB8", Format::x8r8g8b8, true},
+                                     {"X_Z1RGB5", Format::x1r5g5b5, false},
+                                     {"X_O1RGB5", Format::x1r5g5b5, true}};
 
 // Pixels per side of an off-screen target (pipeline/reference/chip-fragment.md 5).
 constexpr int side = 128;
@@ -48,7 +48,7 @@ pipeline::Image blended(const pipeline::DeviceProfile& profile, Format format, B
 
 // The alpha that a lookup returns for a stored alpha `code`. Seven stored bits are read as (a >> 1) with the unused bit
 // above them; formats without alpha return the unused byte or bit, and R5G6B5, which has none, returns 255.
-std::uint8_t texel_alpha(const Layout& layout, std::uint8_t code) {
+std::uint8_t texel_alpha(const BlendedLayout& layout, std::uint8_t code) {
     switch (layout.format) {
         case Format::x1a7r8g8b8: return static_cast<std::uint8_t>((layout.ones ? 0x80 : 0) | code >> 1);
         case Format::x8r8g8b8:
@@ -60,7 +60,7 @@ std::uint8_t texel_alpha(const Layout& layout, std::uint8_t code) {
 
 // The surface as a texture. A 16-bit surface stores the upper 5 or 6 bits of a colour with zeros below; the texture
 // unit fills these with the upper bits again, while blending reads the zeros (pipeline/reference/chip-fragment.md 5).
-pipeline::Texture as_texels(const pipeline::Image& image, const Layout& layout) {
+pipeline::Texture as_texels(const pipeline::Image& image, const BlendedLayout& layout) {
     pipeline::Texture texture = as_texture(image);
     const auto widened = [](std::uint8_t v, int bits) { return static_cast<std::uint8_t>(v | v >> bits); };
     const bool is_16_bit = layout.format == Format::r5g6b5 || layout.format == Format::x1r5g5b5;
@@ -122,16 +122,16 @@ std::optional<BlendFactor> added_factor(std::string_view name) {
 }
 
 // Null if no surface has that name.
-const Layout* find_layout(std::string_view name) {
+const BlendedLayout* find_layout(std::string_view name) {
     const auto* const found =
-        std::find_if(std::begin(layouts), std::end(layouts), [&](const Layout& l) { return l.name == name; });
+        std::find_if(std::begin(layouts), std::end(layouts), [&](const BlendedLayout& l) { return l.name == name; });
     return found == std::end(layouts) ? nullptr : found;
 }
 
 // One tile per texel format, four per row, each an own target of `layout_name`. Tiles are displayed with alpha 255,
 // because the picture is about colours.
 Drawing draw_added(const pipeline::DeviceProfile& profile, std::string_view layout_name, std::string_view factor_name) {
-    const Layout* const layout = find_layout(layout_name);
+    const BlendedLayout* const layout = find_layout(layout_name);
     const auto factor = added_factor(factor_name);
     if (layout == nullptr || !factor) return unknown_name;
     const pipeline::BlendTerm term{BlendEquation::add, BlendFactor::src_alpha, *factor};
@@ -144,7 +144,7 @@ Drawing draw_added(const pipeline::DeviceProfile& profile, std::string_view layo
         place(window, shown, 32.0f + 144.0f * static_cast<float>(k % 4), 92.0f + 144.0f * static_cast<float>(k / 4),
               {});
     }
-    return {Picture{.image = window.color()}, {}};
+    return {SuitePicture{.image = window.color()}, {}};
 }
 
 }  // namespace
@@ -158,7 +158,7 @@ Drawing draw_blend_surface(std::string_view name, const pipeline::DeviceProfile&
     BlendFactor factor = BlendFactor::dst_alpha;
     if (take(name, "1-")) factor = BlendFactor::one_minus_dst_alpha;
     if (!take(name, "DstAlpha_")) return unknown_name;
-    const Layout* const layout = find_layout(name);
+    const BlendedLayout* const layout = find_layout(name);
     if (layout == nullptr) return unknown_name;
     pipeline::Surface window{profile, {}};
     window.clear_color(unpack(0xff555555));
@@ -169,7 +169,7 @@ Drawing draw_blend_surface(std::string_view name, const pipeline::DeviceProfile&
         const float x = 32.0f + 144.0f * static_cast<float>(k % 4), y = k < 4 ? 92 : 252;
         show(window, as_texels(blended(profile, layout->format, factor, fill), *layout), x, y);
     }
-    return {Picture{.image = window.color()}, {}};
+    return {SuitePicture{.image = window.color()}, {}};
 }
 
 }  // namespace strata::hardware_check

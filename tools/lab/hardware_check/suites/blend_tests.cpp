@@ -111,8 +111,8 @@ Drawing draw_blend_tests(std::string_view name, const DeviceProfile& profile) {
     const auto equation = blend_equation(take_until(name, "_"));
     const auto destination = is_spot ? BlendFactor::zero : blend_factor(name);
     if (!source || !equation || !destination || (is_spot && !name.empty())) return unknown_name;
-    if (is_spot) return {Picture{.image = spot_picture(profile, *equation, *source)}, {}};
-    return {Picture{.image = detailed_picture(profile, tested(*equation, *source, *destination))}, {}};
+    if (is_spot) return {SuitePicture{.image = spot_picture(profile, *equation, *source)}, {}};
+    return {SuitePicture{.image = detailed_picture(profile, tested(*equation, *source, *destination))}, {}};
 }
 
 }  // namespace strata::hardware_check

@@ -13,31 +13,31 @@ constexpr Argb clear_words[] = {0x00dacaba, 0x011b2b3b, 0x7f3c2c1c, 0x804d5d6d, 
 constexpr int side = 128;
 
 // A surface's unused bits, and the value written to them.
-struct Layout {
+struct ClearedLayout {
     std::string_view name;
     // Bytes per pixel.
     int bytes;
     // `unused`: mask of the unused bits. `value`: what is written there, within that mask.
     Argb unused = 0, value = 0;
 };
-constexpr Layout layouts[] = {{"A8R8G8B8", 4},
-                              {"R5G6B5", 2},
-                              {"X1R5G5B5_Z1R5G5B5", 2, 0x8000, 0},
-                              {"X1R5G5B5_O1R5G5B5", 2, 0x8000, 0x8000},
-                              {"X8R8G8B8_Z8R8G8B8", 4, 0xff000000, 0},
-                              {"X8R8G8B8_O8R8G8B8", 4, 0xff000000, 0xff000000},
-                              {"X1A7R8G8B8_Z1A7R8G8B8", 4, 0x80000000, 0},
-                              {"X1A7R8G8B8_O1A7R8G8B8", 4, 0x80000000, 0x80000000}};
+constexpr ClearedLayout layouts[] = {{"A8R8G8B8", 4},
+                                     {"R5G6B5", 2},
+                                     {"X1R5G5B5_Z1R5G5B5", 2, 0x8000, 0},
+                                     {"X1R5G5B5_O1R5G5B5", 2, 0x8000, 0x8000},
+                                     {"X8R8G8B8_Z8R8G8B8", 4, 0xff000000, 0},
+                                     {"X8R8G8B8_O8R8G8B8", 4, 0xff000000, 0xff000000},
+                                     {"X1A7R8G8B8_Z1A7R8G8B8", 4, 0x80000000, 0},
+                                     {"X1A7R8G8B8_O1A7R8G8B8", 4, 0x80000000, 0x80000000}};
 
 // The surface's contents after a clear with `word`: a 16-bit surface takes the low half without any conversion.
-[[nodiscard]] Argb stored(const Layout& layout, Argb word) {
+[[nodiscard]] Argb stored(const ClearedLayout& layout, Argb word) {
     const Argb kept = layout.bytes == 2 ? word & 0xffff : word;
     return (kept & ~layout.unused) | layout.value;
 }
 
 // The texel (x, y) that a 32-bit lookup returns for a surface of any format, r in the lowest byte. Two 16-bit pixels
 // are one texel. `mark` is the word of the 4 x 4 square in the middle.
-pipeline::PixelCode texel(const Layout& layout, Argb word, Argb mark, int x, int y) {
+pipeline::PixelCode texel(const ClearedLayout& layout, Argb word, Argb mark, int x, int y) {
     const auto pixel = [&](int column, int row) {
         const bool in_mark = column >= 62 && column < 66 && row >= 62 && row < 66;
         return stored(layout, in_mark ? mark : word);
@@ -55,7 +55,7 @@ pipeline::PixelCode texel(const Layout& layout, Argb word, Argb mark, int x, int
 }
 
 // Six targets, one per clear word, displayed texel by texel, four per row. A 16-bit surface fills half of the rows.
-Picture surface_picture(const pipeline::DeviceProfile& profile, const Layout& layout) {
+SuitePicture surface_picture(const pipeline::DeviceProfile& profile, const ClearedLayout& layout) {
     pipeline::Surface window{profile, {}};
     window.clear_color(unpack(0xff220022));
     // Opaque black. The 16-bit pixels are 0; `stored` adds the value of the unused bit.
@@ -80,7 +80,7 @@ Picture surface_picture(const pipeline::DeviceProfile& profile, const Layout& la
 
 // The chip's clear command ignores the write masks: after drawing under any mask, one clear colour and one clear depth
 // remain.
-Picture mask_picture(const pipeline::DeviceProfile& profile, bool shows_depth) {
+SuitePicture mask_picture(const pipeline::DeviceProfile& profile, bool shows_depth) {
     pipeline::Surface window{profile, {.depth = pipeline::DepthFormat::d16}};
     window.clear_depth(0xffff);
     window.clear_color(unpack(0x7f7f7f7f));
@@ -92,7 +92,7 @@ Picture mask_picture(const pipeline::DeviceProfile& profile, bool shows_depth) {
 
 Drawing draw_clear(std::string_view name, const pipeline::DeviceProfile& profile) {
     if (take(name, "SCF_") || take(name, "SFC_")) {
-        for (const Layout& layout : layouts)
+        for (const ClearedLayout& layout : layouts)
             if (layout.name == name) return {surface_picture(profile, layout), {}};
         return unknown_name;
     }

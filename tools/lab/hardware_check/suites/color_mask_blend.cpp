@@ -40,7 +40,7 @@ Drawing draw_color_mask_blend(std::string_view name, const pipeline::DeviceProfi
         surface.draw({.blend = {true, times_alpha, times_alpha}, .color_mask = 7}, ramp(left, fade));
         fade *= 0.75f;
     }
-    return {Picture{.image = surface.color()}, {}};
+    return {SuitePicture{.image = surface.color()}, {}};
 }
 
 }  // namespace strata::hardware_check

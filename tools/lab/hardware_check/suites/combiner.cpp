@@ -94,7 +94,7 @@ constexpr Argb dark = 0xff303030;
 
 // The selector is spare 0's alpha: its lowest bit, or its highest. Unset, the sum is AB, red; set, it is CD, blue. The
 // alphas 82, 81 and 0 give both results in each mode (pipeline/reference/chip-fragment.md 9).
-Picture mux(const pipeline::DeviceProfile& profile) {
+SuitePicture mux(const pipeline::DeviceProfile& profile) {
     struct Case {
         int alpha;
         pipeline::CombinerSum rule;
@@ -132,7 +132,7 @@ Combiners sum_of(const CombinerPortion& rgb, const Rgba& constant, const FinalCo
 // Six quads: the final stage's sum of spare 0 and secondary colour without a flag, clamped, and with either operand
 // inverted. The first two are halved, because only half of a sum above 255 shows whether it was clamped: 127 * 510 /
 // 255 is 254, not 127.
-Picture flags(const pipeline::DeviceProfile& profile) {
+SuitePicture flags(const pipeline::DeviceProfile& profile) {
     const Rgba half = codes(127, 127, 127, 127), most = codes(191, 191, 191, 191);
     const CombinerPortion both{.a = one, .b = one, .c = one, .d = one, .ab = Reg::secondary_color, .cd = Reg::spare0};
     const CombinerPortion to_spare0{.c = constant0, .d = one, .ab = Reg::secondary_color, .cd = Reg::spare0};
@@ -158,7 +158,7 @@ constexpr float quad_side = 64, quad_top = 74, quad_step = 72, left_column = 200
 
 // Each pair of bias and scale on the constant (25, 63, 255, 127). The left half of a square is opaque, the right half
 // shows alpha, which the alpha portion computes from the constant's blue.
-Picture combiner_ops(const pipeline::DeviceProfile& profile) {
+SuitePicture combiner_ops(const pipeline::DeviceProfile& profile) {
     using pipeline::CombinerBias;
     using pipeline::CombinerScale;
     struct Operation {
@@ -189,7 +189,7 @@ Picture combiner_ops(const pipeline::DeviceProfile& profile) {
 
 // Four squares: the final stage's product of E and F; its sum of spare 0 and secondary colour; the same with either
 // inverted. No flag clamps a sum; the final result is clamped to 0..255 in any case.
-Picture special_inputs(const pipeline::DeviceProfile& profile) {
+SuitePicture special_inputs(const pipeline::DeviceProfile& profile) {
     Combiners product;
     product.final_stage = {.d = {.source = Reg::e_times_f},
                            .e = constant0,

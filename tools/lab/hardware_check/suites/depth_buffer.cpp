@@ -16,7 +16,7 @@ namespace {
 using pipeline::DepthFormat;
 
 // The settings in a capture's name. `clear` is a code of `format`; `is_float` is FZy, and `shows_depth` is _ZB.
-struct Setting {
+struct DepthBufferCapture {
     DepthFormat format = DepthFormat::d16;
     std::uint32_t clear = 0;
     bool is_float = false, shows_depth = false;
@@ -29,8 +29,8 @@ std::uint32_t greatest_code(DepthFormat format) {
 
 // Parses names such as z16_Cn_FZn_M00ffff. C is whether the chip compresses the buffer, which does not change stored
 // values. A clear word above the format's greatest code is not a name of the suite.
-std::optional<Setting> parse(std::string_view name) {
-    Setting s;
+std::optional<DepthBufferCapture> parse(std::string_view name) {
+    DepthBufferCapture s;
     s.shows_depth = take_last(name, "_ZB");
     const std::string_view format = take_until(name, "_");
     if (format != "z16" && format != "z24") return std::nullopt;
@@ -167,7 +167,7 @@ void add_world_slope(TriangleSoup& soup, const Slope& s, const HostCamera& camer
 }
 
 // Draws the soup with LESS over the clear word of `s`; the picture has depths or colours according to the name.
-Picture depth_picture(const pipeline::DeviceProfile& profile, const Setting& s, TriangleSoup soup) {
+SuitePicture depth_picture(const pipeline::DeviceProfile& profile, const DepthBufferCapture& s, TriangleSoup soup) {
     pipeline::Surface surface{profile, {.depth = s.format}};
     surface.clear_color(unpack(0xff000000));
     surface.clear_depth(s.clear);
@@ -201,7 +201,7 @@ Drawing draw_depth_buffer_fixed_function(std::string_view name, const pipeline::
     const HostCamera camera = default_camera(fixed_scale(setting->format));
     TriangleSoup soup;
     for (const Slope& slope : world_slopes()) add_world_slope(soup, slope, camera);
-    Picture picture = depth_picture(profile, *setting, std::move(soup));
+    SuitePicture picture = depth_picture(profile, *setting, std::move(soup));
     // 24 words of the right strip: the last bits of its area's reciprocal are unknown
     // (rasterizer/reference/chip-depth.md 4).
     if (setting->format == DepthFormat::d24 && setting->shows_depth) picture.bound = {24, 1};

@@ -73,7 +73,7 @@ struct Clamping {
     bool w_buffer = false, clamp = false, bias = false, full = false;
 };
 
-Picture clamped_picture(const pipeline::DeviceProfile& profile, const Clamping& c) {
+SuitePicture clamped_picture(const pipeline::DeviceProfile& profile, const Clamping& c) {
     pipeline::Surface surface = cleared_surface(profile);
     const pipeline::Texture texture = checker(checker_side, 8, 0xff00ffff, 0xff000000);
     pipeline::DrawState state = first_state(c.w_buffer);
@@ -92,7 +92,7 @@ Picture clamped_picture(const pipeline::DeviceProfile& profile, const Clamping& 
 
 // A floor that passes below the eye, drawn with removal in front of the range, then with clamping, in red, with EQUAL.
 // For a w buffer it is a hundred times larger, and begins above the window's lower border.
-Picture equal_picture(const pipeline::DeviceProfile& profile, bool w_buffer, float offset) {
+SuitePicture equal_picture(const pipeline::DeviceProfile& profile, bool w_buffer, float offset) {
     const float scale = w_buffer ? 100.0f : 1.0f, far = 200.0f * scale - offset, near = -20.0f + offset;
     const double x = 10 * scale, y = -2.5 * scale;
     const std::array<Point, 4> corner{{{-x, y, far}, {x, y, far}, {x, y, near}, {-x, y, near}}};

@@ -41,8 +41,8 @@ Drawing draw_depth_function(std::string_view name, const pipeline::DeviceProfile
         for (std::size_t k = 0; k < std::size(columns); ++k)
             draw_column(surface, 32.0f + 40.0f * static_cast<float>(k), top,
                         top == 320 ? CompareFunc::always : columns[k]);
-    if (shows_depth) return {Picture{.reading = CaptureFormat::depth16, .image = surface.depth()}, {}};
-    return {Picture{.image = surface.color()}, {}};
+    if (shows_depth) return {SuitePicture{.reading = CaptureFormat::depth16, .image = surface.depth()}, {}};
+    return {SuitePicture{.image = surface.color()}, {}};
 }
 
 }  // namespace strata::hardware_check

@@ -35,7 +35,8 @@ Drawing draw_front_face(std::string_view name, const pipeline::DeviceProfile& pr
     add_quad(soup, {at(138, 44, color), at(138, 430, color), at(310, 430, color), at(310, 44, color)});
     add_box(soup, {330, 44, 502, 430}, color);
     surface.draw(state, std::move(soup));
-    return {Picture{.reading = CaptureFormat::drawn, .image = surface.color(), .background = unpack(0xff000000)}, {}};
+    return {SuitePicture{.reading = CaptureFormat::drawn, .image = surface.color(), .background = unpack(0xff000000)},
+            {}};
 }
 
 }  // namespace strata::hardware_check

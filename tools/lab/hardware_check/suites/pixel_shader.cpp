@@ -69,7 +69,7 @@ pipeline::ShaderStages bump_stages(const Texture& bumps, ShaderOp last) {
 
 // Depth is the quotient of the two dot products, z / w, in the buffer's own units. The rows are from
 // rasterizer/reference/chip-depth.md 6.
-Picture dot_zw(const DeviceProfile& profile, const Texture& bumps) {
+SuitePicture dot_zw(const DeviceProfile& profile, const Texture& bumps) {
     pipeline::FragmentPath path{bump_stages(bumps, ShaderOp::dot_product_depth_replace),
                                 show(pipeline::CombinerRegister::texture0, pipeline::CombinerRegister::texture0)};
     Surface surface{profile, screen};
@@ -102,7 +102,7 @@ std::array<float, 3> direction(const Vector& from, const Vector& to) {
 
 // The two dot products are the coordinates of a lookup: rows are the directions from the eye to a point and from it to
 // a light (rasterizer/reference/chip-geometry.md 4.1). `image` is 128 x 128 texels, addressed from 0 to 1.
-Picture dot_st(const DeviceProfile& profile, const Texture& bumps, Texture image) {
+SuitePicture dot_st(const DeviceProfile& profile, const Texture& bumps, Texture image) {
     // The suite's images are loaded as rectangles; this stage takes coordinates from 0 to 1.
     image.target = pipeline::TextureTarget::two_d;
     pipeline::FragmentPath path{bump_stages(bumps, ShaderOp::dot_product_texture_2d),
@@ -143,7 +143,7 @@ void draw_culled(Surface& surface, float x, float y, unsigned flags) {
 }
 
 // All sixteen combinations of flags, seven squares per row.
-Picture clip_plane(const DeviceProfile& profile) {
+SuitePicture clip_plane(const DeviceProfile& profile) {
     Surface surface{profile, screen};
     surface.clear_color(unpack(0xff000000));
     for (unsigned k = 0; k < 16; ++k)
@@ -152,7 +152,7 @@ Picture clip_plane(const DeviceProfile& profile) {
 }
 
 // Coordinates shown as colours: each is truncated to 8 bits, not rounded.
-Picture pass_through(const DeviceProfile& profile) {
+SuitePicture pass_through(const DeviceProfile& profile) {
     pipeline::FragmentPath path{{}, show(pipeline::CombinerRegister::texture0, pipeline::CombinerRegister::texture0)};
     path.shader[0].op = ShaderOp::pass_through;
     Surface surface{profile, screen};

@@ -24,7 +24,7 @@ struct Triangle {
 };
 
 // A primitive: its points in submission order, and the triangles into which the chip splits it.
-struct Primitive {
+struct ShadedPrimitive {
     std::string_view name;
     std::vector<Point> points;
     std::vector<Triangle> triangles;
@@ -51,7 +51,7 @@ std::vector<Triangle> strip(std::size_t vertices) {
 
 // The table of pipeline/reference/chip-fragment.md 3.3. Quads and quad strips have the colour of their last vertex in
 // both modes.
-std::vector<Primitive> primitives() {
+std::vector<ShadedPrimitive> primitives() {
     return {{"Tri",
              {{left, top},
               {0, top},
@@ -98,7 +98,7 @@ constexpr Argb vertex_colors[] = {0xff0000ff, 0xff00ff00, 0xffff0000, 0xffcccccc
                                   0xffccff33, 0xffffcc33, 0xffff33cc, 0xff111199, 0xff119911, 0xff991111, 0xff666666};
 
 // The settings in a name other than the primitive.
-struct Shading {
+struct ShadedCapture {
     bool is_lit = false, is_textured = false, has_own_w = false, flat = false;
     std::size_t provoking = 0;  // 0 First, 1 Last
 };
@@ -145,7 +145,7 @@ constexpr int texels = 64;
 // Point `k` in the window. The vertex program's arithmetic truncates: a value that is exactly on a step of 1/16 pixel
 // is computed below it (x = 0 at 319.9375), so the next smaller binary32 is used for it here. The fixed-function
 // pipeline adds the viewport's offset, and the test's own w scales the distance to the eye.
-ClipVertex window_vertex(const Primitive& primitive, std::size_t k, const Shading& s) {
+ClipVertex window_vertex(const ShadedPrimitive& primitive, std::size_t k, const ShadedCapture& s) {
     const double w = depth + eye_distance * (s.has_own_w ? double{own_w(k)} : 1.0), scale = 240.0 * cotangent / w;
     const double x = 320.0 + primitive.points[k][0] * scale, y = 240.0 - primitive.points[k][1] * scale;
     const auto place = [&](double v) {
@@ -156,7 +156,7 @@ ClipVertex window_vertex(const Primitive& primitive, std::size_t k, const Shadin
     return v;
 }
 
-TriangleSoup shaded(const Primitive& primitive, const Shading& s) {
+TriangleSoup shaded(const ShadedPrimitive& primitive, const ShadedCapture& s) {
     TriangleSoup soup;
     for (const Triangle& t : primitive.triangles) {
         const auto vertex = [&](std::size_t k) {
@@ -172,13 +172,13 @@ TriangleSoup shaded(const Primitive& primitive, const Shading& s) {
 // Flat pictures are equal. Smooth ones differ in at most one pixel, by one unit, where 256 times a weight is close to
 // an integer (pipeline/reference/chip-fragment.md 3.3); two are allowed. A textured one may have the texel beyond a
 // cell's edge there.
-Bound bound_of(const Shading& s) {
+Bound bound_of(const ShadedCapture& s) {
     if (s.is_textured) return {5, 255};
     return s.flat ? Bound{} : Bound{2, 1};
 }
 
 // Removes the words before the primitive. False if they are not words of this suite.
-bool take_shading(std::string_view& name, Shading& s) {
+bool take_shading(std::string_view& name, ShadedCapture& s) {
     s.has_own_w = take(name, "W_");
     s.is_lit = take(name, "Fixed");
     if (!s.is_lit && (s.has_own_w || !take(name, "Prog"))) return false;
@@ -191,13 +191,13 @@ bool take_shading(std::string_view& name, Shading& s) {
 Drawing draw_shade_model(std::string_view name, const pipeline::DeviceProfile& profile) {
     for (const std::string_view prefix : {"ProgLM_", "FixedLM_", "W_Prog"})
         if (name.starts_with(prefix)) return {std::nullopt, "pictures of this kind are not described"};
-    Shading s;
+    ShadedCapture s;
     if (!take_shading(name, s)) return unknown_name;
     const std::string_view kind = take_until(name, "_"), shading = take_until(name, "_");
     if ((shading != "Smooth" && shading != "Flat") || (name != "First" && name != "Last")) return unknown_name;
     s.flat = shading == "Flat";
     s.provoking = name == "First" ? 0 : 1;
-    for (const Primitive& primitive : primitives()) {
+    for (const ShadedPrimitive& primitive : primitives()) {
         if (primitive.name != kind) continue;
         pipeline::Surface surface{profile, {}};
         surface.clear_color(unpack(0xff2c302e));
@@ -206,7 +206,7 @@ Drawing draw_shade_model(std::string_view name, const pipeline::DeviceProfile& p
                       .front_face = rasterizer::FrontFace::clockwise,
                       .texture = s.is_textured ? &texture : nullptr},
                      shaded(primitive, s));
-        return {Picture{.image = surface.color(), .bound = bound_of(s)}, {}};
+        return {SuitePicture{.image = surface.color(), .bound = bound_of(s)}, {}};
     }
     return unknown_name;
 }

@@ -21,7 +21,7 @@ constexpr std::uint32_t far_depth = 0x00ffff;
 StencilTest stencil_test(const StencilFace& face) { return {.enabled = true, .front = face, .back = face}; }
 
 // With _ZB the picture shows depth words with the stencil below them.
-Picture finished(const Surface& surface, bool shows_depth) {
+SuitePicture finished(const Surface& surface, bool shows_depth) {
     if (!shows_depth) return {.image = surface.color()};
     return {.reading = CaptureFormat::depth24, .image = surface.depth(), .stencil = surface.stencil()};
 }

@@ -109,7 +109,7 @@ Drawing draw_surface_clip(std::string_view name, const pipeline::DeviceProfile& 
         if (*x + *w > picture_width || *y + *h > picture_height) continue;
         if (*w == 0 || *h == 0) return {std::nullopt, "what a clip without area lets through is not known"};
         const rasterizer::Rect clip{*x, *y, *x + *w, *y + *h};
-        return {Picture{.image = shown(drawn_in(profile, clip), layout, clip)}, {}};
+        return {SuitePicture{.image = shown(drawn_in(profile, clip), layout, clip)}, {}};
     }
     return unknown_name;
 }

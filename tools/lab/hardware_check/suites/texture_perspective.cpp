@@ -68,10 +68,10 @@ Drawing draw_texture_perspective(std::string_view name, const pipeline::DevicePr
     surface.clear_color(unpack(0xfe251135));
     const pipeline::Texture texture = checker(texels, 8, 0xff00ffff, 0xff000000);
     surface.draw({.texture = is_textured ? &texture : nullptr}, std::move(soup));
-    return {Picture{.image = surface.color(),
-                    .bound = !corrected    ? Bound{}
-                             : is_textured ? few_texels
-                                           : few_colors},
+    return {SuitePicture{.image = surface.color(),
+                         .bound = !corrected    ? Bound{}
+                                  : is_textured ? few_texels
+                                                : few_colors},
             {}};
 }
 

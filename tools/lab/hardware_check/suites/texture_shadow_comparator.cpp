@@ -23,13 +23,13 @@ using pipeline::DepthFormat;
 using pipeline::Image;
 
 // The origin of the texels: the CPU, a vertex program, or the fixed-function pipeline.
-enum class Source : std::uint8_t { raw, program, fixed };
+enum class TexelOrigin : std::uint8_t { raw, program, fixed };
 
-// The settings in a capture's name. The raw numbers are codes and only for Source::raw; the others are world z, for the
-// two other sources.
-struct Setting {
+// The settings in a capture's name. The raw numbers are codes and only for TexelOrigin::raw; the others are world z,
+// for the two other sources.
+struct ShadowCapture {
     bool compares_r = false;
-    Source source = Source::raw;
+    TexelOrigin source = TexelOrigin::raw;
     DepthFormat format = DepthFormat::d16;
     pipeline::CompareFunc func = pipeline::CompareFunc::never;
     std::uint32_t raw_least = 0, raw_greatest = 0, raw_reference = 0;
@@ -37,18 +37,18 @@ struct Setting {
 };
 
 // Raw texels exist only in the two fixed-point formats.
-std::optional<DepthFormat> format_of(std::string_view word, Source source) {
+std::optional<DepthFormat> format_of(std::string_view word, TexelOrigin source) {
     if (word == "16") return DepthFormat::d16;
     if (word == "24") return DepthFormat::d24;
-    if (word == "16f" && source != Source::raw) return DepthFormat::d16f;
+    if (word == "16f" && source != TexelOrigin::raw) return DepthFormat::d16f;
     return std::nullopt;
 }
 
 // Removes the letter of the source from the name.
-std::optional<Source> source_of(std::string_view& name) {
-    if (take(name, "R")) return Source::raw;
-    if (take(name, "P")) return Source::program;
-    if (take(name, "F")) return Source::fixed;
+std::optional<TexelOrigin> source_of(std::string_view& name) {
+    if (take(name, "R")) return TexelOrigin::raw;
+    if (take(name, "P")) return TexelOrigin::program;
+    if (take(name, "F")) return TexelOrigin::fixed;
     return std::nullopt;
 }
 
@@ -71,15 +71,15 @@ bool take_numbers(std::string_view& name, std::optional<T> (*parse)(std::string_
 
 // True if the format supports raw texels, or if world depths are in front of the eye, which is at z = -7; behind it, w
 // would be negative.
-bool is_drawable(const Setting& s) {
-    if (s.source == Source::raw)
+bool is_drawable(const ShadowCapture& s) {
+    if (s.source == TexelOrigin::raw)
         return std::max({s.raw_least, s.raw_greatest, s.raw_reference}) <= rasterizer::max_code(s.format);
     const auto is_visible = [](float z) { return z > -7.0f && z < 1e6f; };
     return is_visible(s.least) && is_visible(s.greatest) && is_visible(s.reference);
 }
 
-std::optional<Setting> parse_name(std::string_view name) {
-    Setting s;
+std::optional<ShadowCapture> parse_name(std::string_view name) {
+    ShadowCapture s;
     s.compares_r = take(name, "3");
     if (!s.compares_r && !take(name, "2")) return std::nullopt;
     const auto source = source_of(name);
@@ -87,7 +87,7 @@ std::optional<Setting> parse_name(std::string_view name) {
     if (!format) return std::nullopt;
     s.source = *source;
     s.format = *format;
-    const bool has_numbers = s.source == Source::raw
+    const bool has_numbers = s.source == TexelOrigin::raw
                                  ? take_numbers(name, to_hexadecimal, s.raw_least, s.raw_greatest, s.raw_reference)
                                  : take_numbers(name, to_number, s.least, s.greatest, s.reference);
     const auto func = compare_func(name);
@@ -107,7 +107,7 @@ void fill(Image& texels, const rasterizer::Rect& where, std::uint32_t code) {
 
 // 15 x 15 cells of increasing values, accumulated in binary32 as in the test; the columns next to them keep the
 // reference. The test does not shift the cells' 24-bit values above the stencil bits, so a depth is their upper part.
-void fill_cells(Image& texels, const Setting& s) {
+void fill_cells(Image& texels, const ShadowCapture& s) {
     constexpr int cells = 15, width = 42, height = 32, indent = 5;
     const float step = static_cast<float>(s.raw_greatest) / static_cast<float>(cells * cells);
     float value = static_cast<float>(s.raw_least);
@@ -122,7 +122,7 @@ void fill_cells(Image& texels, const Setting& s) {
 
 // The texels of names with R (rasterizer/reference/chip-depth.md 7.1). The codes next to reference and greatest wrap
 // around at 0 and are masked.
-Image raw_texels(const Setting& s) {
+Image raw_texels(const ShadowCapture& s) {
     const std::uint32_t max = rasterizer::max_code(s.format), reference = s.raw_reference;
     Image texels{pipeline::target_format(s.format), picture_width, picture_height};
     fill(texels, {0, 0, picture_width, picture_height}, reference & max);
@@ -138,9 +138,9 @@ Image raw_texels(const Setting& s) {
 
 // Window z of a world z, in the buffer's own units: with the vertex engine's arithmetic for the fixed-function
 // pipeline, in binary64 for a vertex program, which gets finished positions from the test.
-float depth_of(const Setting& s, float z) {
+float depth_of(const ShadowCapture& s, float z) {
     const double units = s.format == DepthFormat::d16f ? rasterizer::max_d16f : rasterizer::max_code(s.format);
-    if (s.source == Source::fixed) return chip_window_z(z, static_cast<float>(units));
+    if (s.source == TexelOrigin::fixed) return chip_window_z(z, static_cast<float>(units));
     return static_cast<float>(window_z(z, units));
 }
 
@@ -148,8 +148,8 @@ constexpr float side_margin = 0.8f;  // of the quads that cover the window
 
 // The depth pass of names with P and F (rasterizer/reference/chip-depth.md 7.2): a background from `least` at the top
 // to `greatest` at the bottom, and the boxes.
-Image rendered_texels(const pipeline::DeviceProfile& profile, const Setting& s) {
-    const float shift = s.source == Source::fixed ? viewport_offset : 0.0f;
+Image rendered_texels(const pipeline::DeviceProfile& profile, const ShadowCapture& s) {
+    const float shift = s.source == TexelOrigin::fixed ? viewport_offset : 0.0f;
     const std::array<float, 4> white{1, 1, 1, 1};
     TriangleSoup soup;
     const auto add = [&](const Box& b, float top_z, float bottom_z) {
@@ -174,9 +174,9 @@ Image rendered_texels(const pipeline::DeviceProfile& profile, const Setting& s) 
 }
 
 // The quad that samples every texel at its pixel, with the reference as r. It is white where the comparison passes.
-TriangleSoup lookup_quad(const Setting& s) {
-    const bool is_raw = s.source == Source::raw;
-    const float shift = s.source == Source::fixed ? viewport_offset : 0.0f, margin = is_raw ? 0.0f : side_margin;
+TriangleSoup lookup_quad(const ShadowCapture& s) {
+    const bool is_raw = s.source == TexelOrigin::raw;
+    const float shift = s.source == TexelOrigin::fixed ? viewport_offset : 0.0f, margin = is_raw ? 0.0f : side_margin;
     const float left = margin + shift, right = picture_width - margin + shift;
     const float top = (is_raw ? 100.0f : 96.0f) + shift, bottom = (is_raw ? 380.0f : 384.0f) + shift;
     const float r = is_raw ? static_cast<float>(s.raw_reference) : depth_of(s, s.reference);
@@ -189,7 +189,7 @@ TriangleSoup lookup_quad(const Setting& s) {
 }
 
 // The second pass of the test: the window after the comparison, black where it fails.
-Picture compared(const pipeline::DeviceProfile& profile, const Setting& s, const Image& texels) {
+SuitePicture compared(const pipeline::DeviceProfile& profile, const ShadowCapture& s, const Image& texels) {
     pipeline::FragmentPath path;
     path.shader[0] = rectangle_lookup(
         {.depth_image = &texels,
@@ -197,16 +197,16 @@ Picture compared(const pipeline::DeviceProfile& profile, const Setting& s, const
          .reference = s.compares_r ? pipeline::CompareReference::r_over_q : pipeline::CompareReference::zero});
     path.combiners = show(pipeline::CombinerRegister::texture0, pipeline::CombinerRegister::primary_color);
     pipeline::Surface surface{profile, {}};
-    surface.clear_color(unpack(s.source == Source::raw ? 0xfe112233 : 0xfe443333));
+    surface.clear_color(unpack(s.source == TexelOrigin::raw ? 0xfe112233 : 0xfe443333));
     surface.draw({.path = &path}, lookup_quad(s));
-    Picture picture{.image = surface.color()};
+    SuitePicture picture{.image = surface.color()};
     // Each box of the captures contains a mark in its own colour, which is not compared.
     for (int k = 0; k < box_count; ++k) {
         const int x = box_left + box_step * k;
         picture.hidden.push_back({x, 235, x + 24, 270});
     }
     // Up to 42 pixels may differ by any amount; reason: head of this file.
-    if (s.source == Source::fixed) picture.bound = {42, 255};
+    if (s.source == TexelOrigin::fixed) picture.bound = {42, 255};
     return picture;
 }
 
@@ -215,7 +215,8 @@ Picture compared(const pipeline::DeviceProfile& profile, const Setting& s, const
 Drawing draw_texture_shadow_comparator(std::string_view name, const pipeline::DeviceProfile& profile) {
     const auto setting = parse_name(name);
     if (!setting) return unknown_name;
-    const Image texels = setting->source == Source::raw ? raw_texels(*setting) : rendered_texels(profile, *setting);
+    const Image texels =
+        setting->source == TexelOrigin::raw ? raw_texels(*setting) : rendered_texels(profile, *setting);
     return {compared(profile, *setting, texels), {}};
 }
 

@@ -14,14 +14,14 @@ namespace {
 // World units.
 constexpr double left = -2.75, right = 2.75, top = 1.75, bottom = -1.75, front = 1, back = 5;
 
-struct Point {
+struct ColoredPoint {
     double x, y, z;
     std::array<float, 3> color;
 };
 
-struct Primitive {
+struct PointPrimitive {
     std::string_view name;
-    std::vector<Point> points;
+    std::vector<ColoredPoint> points;
     std::vector<std::array<std::size_t, 3>> triangles;
 };
 
@@ -38,7 +38,7 @@ std::vector<std::array<std::size_t, 3>> strip(std::size_t points) {
     return all;
 }
 
-std::vector<Primitive> primitives() {
+std::vector<PointPrimitive> primitives() {
     return {{"Triangles",
              {{left, top, front, {.25f, .25f, .25f}},
               {0, top, front, {.55f, .55f, .55f}},
@@ -102,10 +102,10 @@ std::vector<Primitive> primitives() {
 }
 
 // The primitive at the samples that are `shift` pixels to the left and above the pixels' centres.
-pipeline::Image at_samples(const Primitive& primitive, const pipeline::DeviceProfile& profile, float shift) {
+pipeline::Image at_samples(const PointPrimitive& primitive, const pipeline::DeviceProfile& profile, float shift) {
     constexpr double units = 65535;
     const auto vertex = [&](std::size_t k) {
-        const Point& p = primitive.points[k];
+        const ColoredPoint& p = primitive.points[k];
         ClipVertex v = project(p.x, p.y, p.z, units, {p.color[0], p.color[1], p.color[2], 1});
         v.x += viewport_offset + shift;
         v.y += viewport_offset + shift;
@@ -151,15 +151,15 @@ Drawing draw_three_d_primitive(std::string_view name, const pipeline::DeviceProf
         if (take_last(name, command)) break;
     for (const std::string_view other : {"Points", "Lines", "LineLoop", "LineStrip"})
         if (name == other) return {std::nullopt, "lines and points are not modelled"};
-    for (const Primitive& primitive : primitives()) {
+    for (const PointPrimitive& primitive : primitives()) {
         if (primitive.name != name) continue;
         if (smooth_polygons) return {std::nullopt, "the coverage of smooth polygons is not modelled"};
         // A pixel where 256 times a weight is close to an integer differs by one unit, as in Shade_model.
         constexpr Bound near_integer{2, 1};
         const pipeline::Image centres = at_samples(primitive, profile, 0);
-        if (!smooth_lines) return {Picture{.image = centres, .bound = near_integer}, {}};
+        if (!smooth_lines) return {SuitePicture{.image = centres, .bound = near_integer}, {}};
         const pipeline::Texture texture = side_by_side(at_samples(primitive, profile, 0.5f), centres);
-        return {Picture{.image = shown(texture, profile), .bound = near_integer}, {}};
+        return {SuitePicture{.image = shown(texture, profile), .bound = near_integer}, {}};
     }
     return unknown_name;
 }

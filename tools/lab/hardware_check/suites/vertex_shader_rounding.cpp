@@ -19,7 +19,7 @@ constexpr pipeline::SurfaceLayout screen{.depth = pipeline::DepthFormat::d16};
 
 // Green over magenta. The magenta that remains along the upper and the left side shows where `shift` was truncated, and
 // which triangle owns the pixel centres on the edge (rasterizer/reference/chip-geometry.md 1.1).
-Picture geometry(const DeviceProfile& profile, float shift) {
+SuitePicture geometry(const DeviceProfile& profile, float shift) {
     Surface surface{profile, screen};
     surface.clear_color(unpack(0xfe404040));
     surface.draw({}, box({200, 120, 440, 360}, magenta));
@@ -28,7 +28,7 @@ Picture geometry(const DeviceProfile& profile, float shift) {
 }
 
 // Along the shared edges there must be no gap and no pixel drawn twice.
-Picture adjacent_geometry(const DeviceProfile& profile, float shift) {
+SuitePicture adjacent_geometry(const DeviceProfile& profile, float shift) {
     Surface surface{profile, screen};
     surface.clear_color(unpack(0xfe404040));
     surface.draw({}, box({120, 140, 520, 340}, 0xffe0e0e0));
@@ -37,7 +37,7 @@ Picture adjacent_geometry(const DeviceProfile& profile, float shift) {
 }
 
 // As adjacent_geometry, un-projected by the host and projected again, half of it by the fixed-function pipeline.
-Picture projected_adjacent_geometry(const DeviceProfile& profile, float shift) {
+SuitePicture projected_adjacent_geometry(const DeviceProfile& profile, float shift) {
     Surface surface{profile, screen};
     surface.clear_color(unpack(0xfe404040));
     draw_mixed_squares(surface, {shift, viewport_offset, green, 0xff00bb00});
@@ -58,7 +58,7 @@ void show_subscreen(Surface& surface, const DeviceProfile& profile, float shift,
     place(surface, as_texture(target.color()), static_cast<float>(x), static_cast<float>(y), {});
 }
 
-Picture geometry_subscreen(const DeviceProfile& profile, float shift) {
+SuitePicture geometry_subscreen(const DeviceProfile& profile, float shift) {
     Surface surface{profile, screen};
     surface.clear_color(unpack(0xfe414041));
     for (const auto& part : {std::array{248, 168, 128, 128}, std::array{392, 168, 128, 32},
@@ -128,7 +128,7 @@ class Lines {
     TriangleSoup soup_;
 };
 
-Picture top_left_raster(const DeviceProfile& profile) {
+SuitePicture top_left_raster(const DeviceProfile& profile) {
     constexpr Argb color = 0xff337788;
     Surface surface{profile, screen};
     surface.clear_color(unpack(0xff202224));
@@ -146,7 +146,7 @@ Picture top_left_raster(const DeviceProfile& profile) {
 
 Drawing draw_vertex_shader_rounding(std::string_view name, const DeviceProfile& profile) {
     if (name == "TopLeftRaster" || name == "TopLeftRaster_Fixed") return {top_left_raster(profile), {}};
-    using Draw = Picture (*)(const DeviceProfile&, float);
+    using Draw = SuitePicture (*)(const DeviceProfile&, float);
     constexpr std::pair<std::string_view, Draw> shifted[] = {{"Geometry_", geometry},
                                                              {"AdjacentGeometry_", adjacent_geometry},
                                                              {"ProjAdjacentGeometry_", projected_adjacent_geometry},

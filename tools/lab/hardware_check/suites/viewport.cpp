@@ -28,7 +28,7 @@ Drawing draw_viewport(std::string_view name, const pipeline::DeviceProfile& prof
         pipeline::Surface surface{profile, {}};
         surface.clear_color(unpack(0xfe404040));
         draw_mixed_squares(surface, {0, named.offset, 0xff991100, 0xffbb3300});
-        return {Picture{.image = surface.color()}, {}};
+        return {SuitePicture{.image = surface.color()}, {}};
     }
     return unknown_name;
 }

@@ -201,7 +201,7 @@ Bound bound_of(const BufferSetting& s) {
 
 // Every fragment passes, so the picture shows the texture, and a red line at the beginning of its own clip. The test
 // drew yellow lines over it, from its text to the pixels whose depths the text states.
-Picture color_picture(const pipeline::DeviceProfile& profile, const BufferSetting& s, TriangleSoup soup) {
+SuitePicture color_picture(const pipeline::DeviceProfile& profile, const BufferSetting& s, TriangleSoup soup) {
     pipeline::Texture texture = checker(256, 8, 0xff00ffff, 0xff000000);
     texture.target = pipeline::TextureTarget::two_d;
     texture.wrap_s = texture.wrap_t = pipeline::TextureWrap::repeat;
@@ -245,9 +245,9 @@ Drawing draw_w_buffering(std::string_view name, const pipeline::DeviceProfile& p
     if (s->is_w) state.depth_path = DepthPath::w_buffer;
     surface.draw(state, std::move(*soup));
     // The stencil is cleared to 0.
-    return {Picture{.reading = s->is_16 ? CaptureFormat::depth16 : CaptureFormat::depth24,
-                    .image = surface.depth(),
-                    .bound = bound_of(*s)},
+    return {SuitePicture{.reading = s->is_16 ? CaptureFormat::depth16 : CaptureFormat::depth24,
+                         .image = surface.depth(),
+                         .bound = bound_of(*s)},
             {}};
 }
 

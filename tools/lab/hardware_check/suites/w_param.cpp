@@ -79,7 +79,7 @@ Drawing draw_w_param(std::string_view name, const pipeline::DeviceProfile& profi
     const pipeline::BlendTerm sum{pipeline::BlendEquation::add, pipeline::BlendFactor::one, pipeline::BlendFactor::one};
     surface.draw({.blend = {true, sum, sum}, .texture = &texture}, std::move(soup));
     // Texels whose coordinates are exactly on a cell's edge (rasterizer/reference/chip-float-depth.md 8).
-    return {Picture{.image = surface.color(), .bound = {200, 192}}, {}};
+    return {SuitePicture{.image = surface.color(), .bound = {200, 192}}, {}};
 }
 
 }  // namespace strata::hardware_check

@@ -49,13 +49,13 @@ Drawing draw_window_clip(std::string_view name, const pipeline::DeviceProfile& p
     surface.draw({}, box(square, exclusive ? above : below));
     for (const rasterizer::Rect& region : {*first, second_is_overwritten ? *first : *second})
         surface.draw({.window_clip = region}, box(square, exclusive ? below : above));
-    if (!is_off_screen) return {Picture{.image = surface.color()}, {}};
+    if (!is_off_screen) return {SuitePicture{.image = surface.color()}, {}};
     // The target is displayed texel by texel.
     pipeline::Surface window{profile, {}};
     window.clear_color(unpack(0xfe332233));
     const pipeline::Texture target = as_texture(surface.color());
     place(window, target, 192, 112, {});
-    return {Picture{.image = window.color()}, {}};
+    return {SuitePicture{.image = window.color()}, {}};
 }
 
 }  // namespace strata::hardware_check

@@ -33,7 +33,7 @@ Sides<float> grey(int n) {
     return {0.25f + v.left / 150.0f * 0.75f, 0.25f + v.right / 150.0f * 0.75f};
 }
 
-struct Group {
+struct QuadGroup {
     float x, y;
     Sides<float> (*z)(int n);
     Sides<float> (*w)(int n);
@@ -45,29 +45,29 @@ constexpr auto one = [](int) { return Sides<float>{1, 1}; };
 constexpr auto ten = [](int) { return Sides<float>{10, 10}; };
 constexpr auto through_range = [](int) { return Sides<float>{8, 120}; };
 constexpr auto small = [](int) { return Sides<float>{0.01f, 0.0001f}; };
-constexpr Group groups[] = {{90, upper, growing, one,
-                             [](float l, float r) {
-                                 return Sides<Color>{{l, l, l, 1}, {r, r, r, 1}};
-                             }},
-                            {90, lower, through_range, growing,
-                             [](float l, float r) {
-                                 return Sides<Color>{{.33f, .25f, l, 1}, {.33f, .25f, r, 1}};
-                             }},
-                            {90 + group_pitch, upper, growing, small,
-                             [](float l, float r) {
-                                 return Sides<Color>{{.75f, l, l, 1}, {r, r, .8f, 1}};
-                             }},
-                            {90 + group_pitch, lower, through_range, through_range,
-                             [](float, float) {
-                                 return Sides<Color>{{.33f, .75f, .25f, 1}, {.33f, .75f, .8f, 1}};
-                             }},
-                            {90 + 2 * group_pitch, upper, growing, growing,
-                             [](float l, float r) {
-                                 return Sides<Color>{{l, .25f, l, 1}, {r, .25f, r, 1}};
-                             }},
-                            {90 + 2 * group_pitch, lower, growing, ten, [](float l, float r) {
-                                 return Sides<Color>{{l, l, .25f, 1}, {r, r, .8f, 1}};
-                             }}};
+constexpr QuadGroup groups[] = {{90, upper, growing, one,
+                                 [](float l, float r) {
+                                     return Sides<Color>{{l, l, l, 1}, {r, r, r, 1}};
+                                 }},
+                                {90, lower, through_range, growing,
+                                 [](float l, float r) {
+                                     return Sides<Color>{{.33f, .25f, l, 1}, {.33f, .25f, r, 1}};
+                                 }},
+                                {90 + group_pitch, upper, growing, small,
+                                 [](float l, float r) {
+                                     return Sides<Color>{{.75f, l, l, 1}, {r, r, .8f, 1}};
+                                 }},
+                                {90 + group_pitch, lower, through_range, through_range,
+                                 [](float, float) {
+                                     return Sides<Color>{{.33f, .75f, .25f, 1}, {.33f, .75f, .8f, 1}};
+                                 }},
+                                {90 + 2 * group_pitch, upper, growing, growing,
+                                 [](float l, float r) {
+                                     return Sides<Color>{{l, .25f, l, 1}, {r, .25f, r, 1}};
+                                 }},
+                                {90 + 2 * group_pitch, lower, growing, ten, [](float l, float r) {
+                                     return Sides<Color>{{l, l, .25f, 1}, {r, r, .8f, 1}};
+                                 }}};
 
 // The host's camera for the pictures with the fixed-function pipeline: three units back, and an orthographic view from
 // `near` to `far`, which are also the chip's range.
@@ -111,7 +111,7 @@ Drawing draw_z_min_max_control(std::string_view name, const pipeline::DeviceProf
     limit_depth(state, 10, 100, units);
     if (by_w) state.depth_path = rasterizer::DepthPath::w_buffer;
     const HostCamera camera = orthographic_camera();
-    for (const Group& group : groups)
+    for (const QuadGroup& group : groups)
         for (int n = 0; n < columns * rows; ++n) {
             const float x = group.x + pitch * static_cast<float>(n % columns);
             const float y = group.y + pitch * static_cast<float>(n / columns);
@@ -128,7 +128,7 @@ Drawing draw_z_min_max_control(std::string_view name, const pipeline::DeviceProf
         }
     // Colours where 256 times a weight is close to an integer: none in the available captures
     // (rasterizer/reference/chip-float-depth.md 7).
-    return {Picture{.image = surface.color(), .bound = {16, 1}}, {}};
+    return {SuitePicture{.image = surface.color(), .bound = {16, 1}}, {}};
 }
 
 }  // namespace strata::hardware_check

@@ -99,7 +99,7 @@ Drawing draw_zpass_pixel_count(std::string_view name, const pipeline::DeviceProf
     pipeline::Surface surface{profile, {.depth = pipeline::DepthFormat::d16}};
     surface.clear_color(unpack(0xff333333));
     surface.clear_depth(0xffff);
-    Picture picture;
+    SuitePicture picture;
     if (size)
         picture.reports = {sized->draw(surface, *size)};
     else

@@ -16,15 +16,15 @@ const std::vector<std::string> color_fields{
     "raster.weights",     "raster.reciprocal_bits", "raster.reciprocal_deficit", "raster.plane_rule",
     "raster.plane_origin"};
 
-struct Frame {
+struct SlopesFrame {
     int width = 61, height = 47, triangles = 30;
 };
 // A few of ten thousand pixels distinguish two reciprocals.
-constexpr Frame large{251, 199, 250};
+constexpr SlopesFrame large{251, 199, 250};
 
 // Different colours at the corners; w is 1 or varies.
 Item slopes_item(Format format, bool in_perspective, std::uint64_t seed, const std::string& name,
-                 const Frame& frame = {}) {
+                 const SlopesFrame& frame = {}) {
     Item item{.name = name, .decides = color_fields, .width = frame.width, .height = frame.height, .color = format};
     Draw draw;
     RandomGenerator random{seed};

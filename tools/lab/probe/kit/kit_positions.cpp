@@ -23,17 +23,17 @@ using rasterizer::WindowTransform;
 
 const std::vector<std::string> position_fields{"raster.w_divide", "raster.viewport", "raster.y_axis"};
 
-struct Way {
+struct PositionArithmetic {
     WDivide divide;
     ViewportArithmetic viewport;
 };
-constexpr Way ways[]{{WDivide::quotient, ViewportArithmetic::separate},
-                     {WDivide::quotient, ViewportArithmetic::fused},
-                     {WDivide::reciprocal, ViewportArithmetic::separate},
-                     {WDivide::reciprocal, ViewportArithmetic::fused},
-                     {WDivide::nv20, ViewportArithmetic::separate}};
+constexpr PositionArithmetic ways[]{{WDivide::quotient, ViewportArithmetic::separate},
+                                    {WDivide::quotient, ViewportArithmetic::fused},
+                                    {WDivide::reciprocal, ViewportArithmetic::separate},
+                                    {WDivide::reciprocal, ViewportArithmetic::fused},
+                                    {WDivide::nv20, ViewportArithmetic::separate}};
 
-WindowTransform transform(const Item& item, const Way& way) {
+WindowTransform transform(const Item& item, const PositionArithmetic& way) {
     rasterizer::RasterState state;
     state.viewport = {0, 0, item.width, item.height};
     state.y_direction = YDirection::down;
@@ -44,7 +44,8 @@ WindowTransform transform(const Item& item, const Way& way) {
 }
 
 // Finds clip x and w that the two ways put on different sides of window x `target`; w is 0 if none was found.
-ClipVertex split(RandomGenerator& random, const Item& item, const Way& a, const Way& b, float target) {
+ClipVertex split(RandomGenerator& random, const Item& item, const PositionArithmetic& a, const PositionArithmetic& b,
+                 float target) {
     const WindowTransform first = transform(item, a), second = transform(item, b);
     for (int attempt = 0; attempt < 400; ++attempt) {
         ClipVertex v = corner(item, {target, 0, 0, random.between(0.5f, 4.0f)}, white);
@@ -71,12 +72,13 @@ void add_split_box(const Item& item, Draw& draw, const ClipVertex& at, float lef
 }
 
 // Two indices of `ways`.
-struct Pair {
+struct ArithmeticPair {
     std::size_t a, b;
 };
 
 // A box of 3 x 3 pixels per pair, threshold and side.
-Item edges_item(int width, int height, const std::vector<Pair>& pairs, std::uint64_t seed, const std::string& name) {
+Item edges_item(int width, int height, const std::vector<ArithmeticPair>& pairs, std::uint64_t seed,
+                const std::string& name) {
     Item item{.name = name, .decides = position_fields, .width = width, .height = height};
     Draw draw;
     RandomGenerator random{seed};
@@ -84,7 +86,7 @@ Item edges_item(int width, int height, const std::vector<Pair>& pairs, std::uint
     std::size_t number = 0;
     for (int y = 0; y + 3 <= item.height; y += 3)
         for (int x = 0; x + 3 <= item.width; x += 3, ++number) {
-            const Pair pair = pairs[number % pairs.size()];
+            const ArithmeticPair pair = pairs[number % pairs.size()];
             const float threshold = thresholds[number / pairs.size() % 7];
             const bool is_left = number / (7 * pairs.size()) % 2 == 0;
             const float left = static_cast<float>(x);
@@ -97,14 +99,14 @@ Item edges_item(int width, int height, const std::vector<Pair>& pairs, std::uint
 }
 
 // Every way paired with every other, in 5 rows of 4.
-std::vector<Pair> all_pairs() {
-    std::vector<Pair> pairs;
+std::vector<ArithmeticPair> all_pairs() {
+    std::vector<ArithmeticPair> pairs;
     for (std::size_t step = 1; step < 5; ++step)
         for (std::size_t a = 0; a < 5; ++a) pairs.push_back({a, (a + step) % 5});
     return pairs;
 }
 // Ways that differ only in the viewport.
-std::vector<Pair> viewport_pairs() { return {{0, 1}, {2, 3}, {1, 0}, {3, 2}}; }
+std::vector<ArithmeticPair> viewport_pairs() { return {{0, 1}, {2, 3}, {1, 0}, {3, 2}}; }
 
 Item flat_item(DepthFormat format, const std::string& name) {
     Item item{.name = name, .decides = position_fields};

@@ -105,7 +105,7 @@ Nearness nearness(const Answer& a, const Answer& b) {
     return result;
 }
 
-Comparison::Comparison(const ProbePack& pack, const std::vector<Item>& items, YDirection y) : y_{y} {
+KitComparison::KitComparison(const ProbePack& pack, const std::vector<Item>& items, YDirection y) : y_{y} {
     const auto says = pack.device.find("has_d32f");
     reports_float_depth_ = says != pack.device.end() && says->is_boolean() && says->get<bool>();
     const auto found = pack.answers.find(y);
@@ -116,7 +116,7 @@ Comparison::Comparison(const ProbePack& pack, const std::vector<Item>& items, YD
     }
 }
 
-std::vector<std::size_t> Comparison::items_of(const std::vector<std::string_view>& beginnings) const {
+std::vector<std::size_t> KitComparison::items_of(const std::vector<std::string_view>& beginnings) const {
     std::vector<std::size_t> numbers;
     for (const std::string_view beginning : beginnings)
         for (std::size_t i = 0; i < items_.size(); ++i)
@@ -125,19 +125,19 @@ std::vector<std::size_t> Comparison::items_of(const std::vector<std::string_view
     return numbers;
 }
 
-Reply Comparison::drawn(const DeviceProfile& profile, std::size_t number) const {
+Reply KitComparison::drawn(const DeviceProfile& profile, std::size_t number) const {
     Reply reply = draw_item(profile, *items_[number].item, y_);
     if (reply.answer) reply.answer->depth = as_read(std::move(reply.answer->depth), items_[number].answer->depth);
     return reply;
 }
 
-std::vector<bool> Comparison::equal(const Reply& drawn, std::size_t number) const {
+std::vector<bool> KitComparison::equal(const Reply& drawn, std::size_t number) const {
     const Answer& own = *items_[number].answer;
     if (!drawn.answer) return std::vector<bool>(place_count(own), false);
     return equal_values(own, *drawn.answer);
 }
 
-Tally Comparison::tally(const DeviceProfile& profile, const std::vector<std::size_t>& numbers) const {
+Tally KitComparison::tally(const DeviceProfile& profile, const std::vector<std::size_t>& numbers) const {
     Tally sum;
     for (const std::size_t number : numbers) {
         const std::vector<bool> places = equal(drawn(profile, number), number);

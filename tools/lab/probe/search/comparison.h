@@ -49,10 +49,10 @@ struct Nearness {
 inline constexpr int most_points = 40;
 [[nodiscard]] Nearness nearness(const Answer& a, const Answer& b);
 
-class Comparison {
+class KitComparison {
   public:
     // `pack` and `items` must outlive it.
-    Comparison(const ProbePack& pack, const std::vector<Item>& items, YDirection y);
+    KitComparison(const ProbePack& pack, const std::vector<Item>& items, YDirection y);
 
     // Answered items whose names begin with the first prefix, in the kit's order, then those of the next.
     [[nodiscard]] std::vector<std::size_t> items_of(const std::vector<std::string_view>& beginnings) const;

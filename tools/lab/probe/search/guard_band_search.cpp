@@ -10,7 +10,7 @@ namespace strata::probe {
 // the band is between them. Triangles that are not clipped agree in every pixel; a clipped one may, too, by chance, so
 // the band may be smaller.
 BandSearch::Bracket BandSearch::bracket(DeviceProfile profile) const {
-    const Comparison& device = scores.device();
+    const KitComparison& device = scores.device();
     const std::vector<int> reaches = guard_reaches();
     std::size_t first = reaches.size();
     profile.raster.guard_band_px = field("raster.guard_band_px").highest;

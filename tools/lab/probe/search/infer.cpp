@@ -12,7 +12,7 @@ namespace {
 
 // One of a field's scenes under one of its values: where it equals the device's picture, and where it equals that of
 // the inferred profile.
-struct Hypothesis {
+struct ValueMatch {
     std::vector<bool> equal{}, as_found{};
 };
 
@@ -21,7 +21,7 @@ bool decides(const Item& item, std::string_view key) {
 }
 
 template <class Has>
-std::vector<std::size_t> items_that(const Comparison& device, Has has) {
+std::vector<std::size_t> items_that(const KitComparison& device, Has has) {
     std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < device.count(); ++i)
         if (has(device.item(i))) numbers.push_back(i);
@@ -48,7 +48,7 @@ std::vector<int> other_values(const ProfileField& f, int found) {
 
 class Evidence {
   public:
-    Evidence(const Comparison& device, const DeviceProfile& found) : device_{device}, found_{found} {
+    Evidence(const KitComparison& device, const DeviceProfile& found) : device_{device}, found_{found} {
         for (std::size_t i = 0; i < device.count(); ++i) {
             drawn_.push_back(device.drawn(found, i));
             equal_.push_back(device.equal(drawn_.back(), i));
@@ -103,7 +103,7 @@ class Evidence {
         }
         std::vector<std::uint64_t> agree(others.size());
         for (const std::size_t item : items) {
-            std::vector<Hypothesis> hypotheses;
+            std::vector<ValueMatch> hypotheses;
             for (const DeviceProfile& other : others) {
                 hypotheses.push_back(hypothesis(other, item));
                 note_change(item, hypotheses.back().equal, fmt::format("{}={}", f.key, pipeline::text_of(f, other)));
@@ -141,9 +141,9 @@ class Evidence {
         return drawn.answer ? difference(own, *drawn.answer).coverage : own.color.codes.size();
     }
 
-    [[nodiscard]] Hypothesis hypothesis(const DeviceProfile& profile, std::size_t item) const {
+    [[nodiscard]] ValueMatch hypothesis(const DeviceProfile& profile, std::size_t item) const {
         const Reply drawn = device_.drawn(profile, item);
-        Hypothesis result{.equal = device_.equal(drawn, item)};
+        ValueMatch result{.equal = device_.equal(drawn, item)};
         if (drawn.answer && drawn_[item].answer)
             result.as_found = equal_values(*drawn.answer, *drawn_[item].answer);
         else
@@ -151,11 +151,11 @@ class Evidence {
         return result;
     }
 
-    void count_item(std::size_t item, const std::vector<Hypothesis>& others, std::vector<std::uint64_t>& agree,
+    void count_item(std::size_t item, const std::vector<ValueMatch>& others, std::vector<std::uint64_t>& agree,
                     FieldFinding& finding) const {
         const std::vector<bool>& own = equal_[item];
         for (std::size_t place = 0; place < own.size(); ++place) {
-            if (std::ranges::all_of(others, [&](const Hypothesis& h) { return h.as_found[place]; })) continue;
+            if (std::ranges::all_of(others, [&](const ValueMatch& h) { return h.as_found[place]; })) continue;
             ++finding.places;
             finding.agree += own[place] ? 1 : 0;
             if (!own[place] && !finding.broken) finding.broken = place_of(device_.item(item), place);
@@ -181,7 +181,7 @@ class Evidence {
         if (agrees > best.equal) best = {text, agrees};
     }
 
-    const Comparison& device_;
+    const KitComparison& device_;
     const DeviceProfile& found_;
     std::vector<Reply> drawn_{};
     std::vector<std::vector<bool>> equal_{};
@@ -208,7 +208,7 @@ std::vector<FieldFinding> findings(Evidence& evidence, const ProbePack& pack, co
     return all;
 }
 
-std::vector<Unexplained> unexplained(const Comparison& device, const Evidence& evidence) {
+std::vector<Unexplained> unexplained(const KitComparison& device, const Evidence& evidence) {
     std::vector<Unexplained> all;
     for (std::size_t i = 0; i < device.count(); ++i) {
         const std::vector<bool>& equal = evidence.equal(i);
@@ -230,7 +230,7 @@ std::vector<Unexplained> unexplained(const Comparison& device, const Evidence& e
 }  // namespace
 
 Inference infer(const ProbePack& pack, const std::vector<Item>& items, YDirection y) {
-    const Comparison device{pack, items, y};
+    const KitComparison device{pack, items, y};
     Inference result{.profile = searched(device, pack), .orientation = y};
     // The search begins with a built-in device, whose values of unprobed fields say nothing about this one.
     for (const Unprobed& f : unprobed_fields()) field(f.key).set(result.profile, field(f.key).value(DeviceProfile{}));

@@ -18,7 +18,7 @@ std::uint64_t part_of(const Nearness& n, Part part) {
 
 }  // namespace
 
-Scores::Scores(const Comparison& device) : device_{device} {
+Scores::Scores(const KitComparison& device) : device_{device} {
     for (std::size_t i = 0; i < device.count(); ++i) {
         std::vector<const ProfileField*>& fields = fields_.emplace_back();
         for (const ProfileField* f : probed_fields())

@@ -17,9 +17,9 @@ using Numbers = std::vector<std::size_t>;
 class Scores {
   public:
     // The comparison must outlive it.
-    explicit Scores(const Comparison& device);
+    explicit Scores(const KitComparison& device);
 
-    [[nodiscard]] const Comparison& device() const noexcept { return device_; }
+    [[nodiscard]] const KitComparison& device() const noexcept { return device_; }
     // Points of a part of one scene; `equal` counts the positions that agree.
     [[nodiscard]] const Nearness& of(const DeviceProfile& profile, std::size_t number);
     [[nodiscard]] std::uint64_t points(const DeviceProfile& profile, std::size_t number, Part part);
@@ -34,7 +34,7 @@ class Scores {
     [[nodiscard]] std::size_t drawn() const noexcept { return drawn_; }
 
   private:
-    const Comparison& device_;
+    const KitComparison& device_;
     // Per scene, the fields that can change it, then the results by their values.
     std::vector<std::vector<const ProfileField*>> fields_{};
     // In a memory resource of its own: small permanent allocations between the temporary buffers of drawing fragment

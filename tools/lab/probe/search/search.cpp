@@ -11,7 +11,7 @@ namespace strata::probe {
 
 namespace {
 
-struct Candidate {
+struct ScoredProfile {
     DeviceProfile profile;
     std::uint64_t points = 0;
 };
@@ -49,18 +49,18 @@ void combine(const Keys& keys, std::size_t next, DeviceProfile profile, std::vec
 }
 
 // The scenes and the part of their pictures that a search compares.
-struct View {
+struct ScoredItems {
     Scores& scores;
     Numbers numbers;
     Part part;
     [[nodiscard]] std::uint64_t points(const DeviceProfile& profile, std::uint64_t bar = 0) const {
         return scores.points(profile, numbers, part, bar);
     }
-    [[nodiscard]] bool is_perfect(const Candidate& c) const { return c.points == scores.most(numbers, part); }
+    [[nodiscard]] bool is_perfect(const ScoredProfile& c) const { return c.points == scores.most(numbers, part); }
 };
 
 // The best candidate of each kind, which is given by the values of the first two fields. Earlier candidates win ties.
-std::vector<Candidate> best_of_kinds(const Keys& keys, const std::vector<Candidate>& all, std::size_t most) {
+std::vector<ScoredProfile> best_of_kinds(const Keys& keys, const std::vector<ScoredProfile>& all, std::size_t most) {
     std::map<std::pair<int, int>, std::size_t> best;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const int first = field(keys[0]).value(all[i].profile);
@@ -72,14 +72,14 @@ std::vector<Candidate> best_of_kinds(const Keys& keys, const std::vector<Candida
     for (const auto& [kind, i] : best) order.push_back(i);
     std::ranges::sort(order);
     std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return all[a].points > all[b].points; });
-    std::vector<Candidate> kept;
+    std::vector<ScoredProfile> kept;
     for (const std::size_t i : order)
         if (kept.size() < most) kept.push_back(all[i]);
     return kept;
 }
 
 // Tries all values of these fields together. True if one is better.
-bool improve(const View& view, const Keys& keys, Candidate& best) {
+bool improve(const ScoredItems& view, const Keys& keys, ScoredProfile& best) {
     std::vector<DeviceProfile> tried;
     combine(keys, 0, best.profile, tried);
     bool gained = false;
@@ -94,12 +94,12 @@ bool improve(const View& view, const Keys& keys, Candidate& best) {
 
 // A field that cannot change any of the scenes, or has no effect, need not be tried by itself; together with a second
 // one it may have an effect.
-bool is_of_use(const View& view, std::string_view key) {
+bool is_of_use(const ScoredItems& view, std::string_view key) {
     return std::ranges::any_of(view.numbers, [&](std::size_t n) { return view.scores.can_change(key, n); });
 }
 
 // One field at a time, until none gains; then two at a time, and again.
-void refine(const View& view, const Keys& all, Candidate& best) {
+void refine(const ScoredItems& view, const Keys& all, ScoredProfile& best) {
     Keys keys;
     for (const std::string_view key : all)
         if (is_of_use(view, key) && std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
@@ -115,8 +115,8 @@ void refine(const View& view, const Keys& all, Candidate& best) {
     }
 }
 
-std::vector<Candidate> scored(const View& view, std::vector<DeviceProfile> profiles) {
-    std::vector<Candidate> all;
+std::vector<ScoredProfile> scored(const ScoredItems& view, std::vector<DeviceProfile> profiles) {
+    std::vector<ScoredProfile> all;
     for (DeviceProfile& profile : profiles) {
         const std::uint64_t points = view.points(profile);
         all.push_back({std::move(profile), points});
@@ -128,17 +128,17 @@ std::vector<Candidate> scored(const View& view, std::vector<DeviceProfile> profi
 constexpr std::size_t most_kinds = 6;
 
 DeviceProfile search_group(const FieldGroup& group, Scores& scores, const DeviceProfile& start) {
-    const View view{scores, scores.device().items_of(group.items), group.part};
+    const ScoredItems view{scores, scores.device().items_of(group.items), group.part};
     if (view.numbers.empty()) return start;
-    const View first{scores, {view.numbers.front()}, group.part};
+    const ScoredItems first{scores, {view.numbers.front()}, group.part};
     std::vector<DeviceProfile> combinations;
     combine(group.joint, 0, start, combinations);
     if (combinations.empty()) return start;
     Keys keys = group.joint;
     keys.insert(keys.end(), group.refined.begin(), group.refined.end());
-    Candidate best{start, view.points(start)};
-    for (const Candidate& sifted : best_of_kinds(group.joint, scored(first, std::move(combinations)), most_kinds)) {
-        Candidate one = sifted;
+    ScoredProfile best{start, view.points(start)};
+    for (const ScoredProfile& sifted : best_of_kinds(group.joint, scored(first, std::move(combinations)), most_kinds)) {
+        ScoredProfile one = sifted;
         refine(first, keys, one);
         one.points = view.points(one.profile);
         refine(view, keys, one);
@@ -148,7 +148,7 @@ DeviceProfile search_group(const FieldGroup& group, Scores& scores, const Device
     return best.profile;
 }
 
-void search_guard_band(const View& view, BandSearch& bands, Candidate& best) {
+void search_guard_band(const ScoredItems& view, BandSearch& bands, ScoredProfile& best) {
     if (!matters("raster.guard_band_px", best.profile) || view.is_perfect(best)) return;
     best.profile.raster.guard_band_px = bands.best(best.profile, view.numbers, view.part);
     best.points = view.points(best.profile);
@@ -157,12 +157,12 @@ void search_guard_band(const View& view, BandSearch& bands, Candidate& best) {
 // A guard band close to the frame clips like the view volume: whether there is one is known only after the search.
 DeviceProfile search_clip(const FieldGroup& group, BandSearch& bands, const DeviceProfile& start) {
     Scores& scores = bands.scores;
-    const View view{scores, scores.device().items_of(group.items), group.part};
+    const ScoredItems view{scores, scores.device().items_of(group.items), group.part};
     DeviceProfile found = search_group(group, scores, start);
-    Candidate best{found, view.points(found)};
+    ScoredProfile best{found, view.points(found)};
     found.raster.clip = rasterizer::ClipVolume::guard_band;
     found.raster.guard_band_px = field("raster.guard_band_px").highest;
-    Candidate other{found, view.points(found)};
+    ScoredProfile other{found, view.points(found)};
     search_guard_band(view, bands, other);
     refine(view, group.joint, other);
     search_guard_band(view, bands, other);
@@ -172,8 +172,8 @@ DeviceProfile search_clip(const FieldGroup& group, BandSearch& bands, const Devi
 // Tries the fields that can change a scene still unexplained after the groups, until the whole kit gains no more.
 DeviceProfile repaired(BandSearch& bands, const DeviceProfile& start) {
     Scores& scores = bands.scores;
-    View all{scores, scores.device().items_of({""}), Part::both};
-    Candidate best{start, all.points(start)};
+    ScoredItems all{scores, scores.device().items_of({""}), Part::both};
+    ScoredProfile best{start, all.points(start)};
     const auto is_explained = [&](std::size_t n) {
         return scores.points(best.profile, n, Part::both) == scores.most(n, Part::both);
     };
@@ -181,7 +181,7 @@ DeviceProfile repaired(BandSearch& bands, const DeviceProfile& start) {
         before = best.points;
         // The unexplained scenes come first, because they reveal a worse profile sooner.
         std::ranges::stable_partition(all.numbers, [&](std::size_t n) { return !is_explained(n); });
-        View wrong{scores, {}, Part::both};
+        ScoredItems wrong{scores, {}, Part::both};
         for (const std::size_t n : all.numbers)
             if (!is_explained(n)) wrong.numbers.push_back(n);
         Keys keys;
@@ -194,12 +194,12 @@ DeviceProfile repaired(BandSearch& bands, const DeviceProfile& start) {
 }
 
 // All groups one after another, starting from one device.
-Candidate searched_from(BandSearch& bands, DeviceProfile profile) {
+ScoredProfile searched_from(BandSearch& bands, DeviceProfile profile) {
     Scores& scores = bands.scores;
     for (const FieldGroup& group : field_groups())
         profile = group.name == "clip" ? search_clip(group, bands, profile) : search_group(group, scores, profile);
     profile = repaired(bands, profile);
-    const View all{scores, scores.device().items_of({""}), Part::both};
+    const ScoredItems all{scores, scores.device().items_of({""}), Part::both};
     return {profile, all.points(profile)};
 }
 
@@ -223,10 +223,10 @@ DeviceProfile with_features(DeviceProfile profile, const ProbePack& pack) {
     return profile;
 }
 
-DeviceProfile covered_first(const Comparison& device, const DeviceProfile& start) {
+DeviceProfile covered_first(const KitComparison& device, const DeviceProfile& start) {
     Scores scores{device};
     const Numbers all = device.items_of({""});
-    const View coverage{scores, all, Part::coverage}, both{scores, all, Part::both};
+    const ScoredItems coverage{scores, all, Part::coverage}, both{scores, all, Part::both};
     std::vector<DeviceProfile> tried{start};
     if (coverage.points(start) == scores.most(all, Part::coverage)) return start;
     combine({"raster.clip", "raster.z_clip", "raster.w_clip", "raster.viewport"}, 0, start, tried);
@@ -235,17 +235,17 @@ DeviceProfile covered_first(const Comparison& device, const DeviceProfile& start
     });
 }
 
-DeviceProfile searched(const Comparison& device, const ProbePack& pack) {
+DeviceProfile searched(const KitComparison& device, const ProbePack& pack) {
     Scores scores{device};
-    const View all{scores, device.items_of({""}), Part::both};
+    const ScoredItems all{scores, device.items_of({""}), Part::both};
     std::vector<DeviceProfile> starts;
     for (const DeviceProfile& profile : pipeline::builtin_profiles()) starts.push_back(with_features(profile, pack));
-    std::vector<Candidate> ranked = scored(all, std::move(starts));
-    std::ranges::stable_sort(ranked, std::ranges::greater{}, &Candidate::points);
-    Candidate best = ranked.front();
+    std::vector<ScoredProfile> ranked = scored(all, std::move(starts));
+    std::ranges::stable_sort(ranked, std::ranges::greater{}, &ScoredProfile::points);
+    ScoredProfile best = ranked.front();
     BandSearch bands{scores};
     for (std::size_t i = 0; i < std::min(most_starts, ranked.size()) && !all.is_perfect(best); ++i) {
-        Candidate found = searched_from(bands, ranked[i].profile);
+        ScoredProfile found = searched_from(bands, ranked[i].profile);
         if (found.points > best.points) best = std::move(found);
     }
     return all.is_perfect(best) ? best.profile : covered_first(device, best.profile);

@@ -18,8 +18,8 @@ namespace strata::probe {
 // A device may clip its triangles by one rule and compute their planes by another, which no profile can express:
 // coverage then takes precedence over values. Chooses the values of the clip fields whose coverage agrees at most
 // pixels; of equal ones the best.
-[[nodiscard]] DeviceProfile covered_first(const Comparison& device, const DeviceProfile& start);
+[[nodiscard]] DeviceProfile covered_first(const KitComparison& device, const DeviceProfile& start);
 
-[[nodiscard]] DeviceProfile searched(const Comparison& device, const ProbePack& pack);
+[[nodiscard]] DeviceProfile searched(const KitComparison& device, const ProbePack& pack);
 
 }  // namespace strata::probe
