@@ -96,7 +96,7 @@ Header header_of(std::string_view begin, std::size_t size, const std::string& fi
 
 }  // namespace
 
-std::string_view name(Element element) noexcept { return enum_names<Element>[static_cast<std::size_t>(element)]; }
+std::string_view name(Element element) noexcept { return enum_name(element); }
 
 std::size_t bytes_of(Element element) noexcept {
     switch (element) {

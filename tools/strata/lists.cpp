@@ -207,9 +207,9 @@ int list(const ListOptions& options) {
     switch (options.what) {
         case ListKind::algorithms: return list_algorithms(options);
         case ListKind::profiles: return options.name.empty() ? list_profiles(options) : show_profile(options);
-        case ListKind::scenes: return list_scenes(options);
+        case ListKind::scenes: break;
     }
-    return 0;  // unreachable: the enum is closed
+    return list_scenes(options);
 }
 
 }  // namespace

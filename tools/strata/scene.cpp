@@ -26,9 +26,9 @@ constexpr std::string_view alpha_mode_name(pipeline::AlphaMode mode) {
     switch (mode) {
         case pipeline::AlphaMode::opaque: return "OPAQUE";
         case pipeline::AlphaMode::mask: return "MASK";
-        case pipeline::AlphaMode::blend: return "BLEND";
+        case pipeline::AlphaMode::blend: break;
     }
-    return "";  // unreachable: the enum is closed
+    return "BLEND";
 }
 
 // Totals over instances: a mesh with two instances counts twice.

@@ -10,7 +10,7 @@
 
 namespace strata::oracle {
 
-std::string_view name(Kind kind) noexcept { return enum_names<Kind>[static_cast<std::size_t>(kind)]; }
+std::string_view name(Kind kind) noexcept { return enum_name(kind); }
 
 namespace {
 

@@ -108,9 +108,7 @@ std::optional<Masks> drawn(std::span<const TargetPair> pairs, const Background& 
     return std::nullopt;
 }
 
-std::string_view name(CoverageMistake mistake) noexcept {
-    return enum_names<CoverageMistake>[static_cast<std::size_t>(mistake)];
-}
+std::string_view name(CoverageMistake mistake) noexcept { return enum_name(mistake); }
 
 namespace {
 

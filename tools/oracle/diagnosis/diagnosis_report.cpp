@@ -124,9 +124,7 @@ std::string description_of(const std::vector<const Mistake*>& mistakes) {
     return text;
 }
 
-std::string_view name(Conclusion conclusion) noexcept {
-    return enum_names<Conclusion>[static_cast<std::size_t>(conclusion)];
-}
+std::string_view name(Conclusion conclusion) noexcept { return enum_name(conclusion); }
 
 std::string to_text(const Diagnosis& d, const Comparison& comparison) {
     std::string text = first_line(d);

@@ -39,7 +39,7 @@ std::string_view words_for(BlendRounding rule) {
 void add_blends(std::vector<Mistake>& all) {
     for (const BlendRounding rule : {BlendRounding::nearest, BlendRounding::truncate, BlendRounding::each_product,
                                      BlendRounding::unrounded_source}) {
-        const auto word = enum_names<BlendRounding>[static_cast<std::size_t>(rule)];
+        const auto word = enum_name(rule);
         all.push_back(allowed(fmt::format("blend_{}", word), std::string{words_for(rule)}, [rule](AlteredRun& e) {
             if (e.profile.blend_rounding == rule || accumulators(e) != Format::rgba8) return false;
             e.profile.blend_rounding = rule;
@@ -51,7 +51,7 @@ void add_blends(std::vector<Mistake>& all) {
     // triangles with slopes.
     using rasterizer::EqualColors;
     for (const EqualColors rule : enum_values<EqualColors>) {
-        const auto word = enum_names<EqualColors>[static_cast<std::size_t>(rule)];
+        const auto word = enum_name(rule);
         all.push_back(allowed(fmt::format("equal_colors_{}", word),
                               fmt::format("triangles of one colour: raster.equal_colors {}", word),
                               [rule](AlteredRun& e) {
@@ -96,7 +96,7 @@ void add_formats(std::vector<Mistake>& all) {
 void add_positions(std::vector<Mistake>& all) {
     using pipeline::SamplePositions;
     for (const SamplePositions positions : enum_values<SamplePositions>) {
-        const auto word = enum_names<SamplePositions>[static_cast<std::size_t>(positions)];
+        const auto word = enum_name(positions);
         all.push_back(allowed(fmt::format("sample_positions_{}", word), fmt::format("sample_positions {}", word),
                               [positions](AlteredRun& e) {
                                   const int samples = e.sampling.samples;

@@ -22,9 +22,9 @@ using pipeline::StageEvent;
 using pipeline::Step;
 using pipeline::StepEvent;
 
-std::string_view name(Fate fate) noexcept { return enum_names<Fate>[static_cast<std::size_t>(fate)]; }
+std::string_view name(Fate fate) noexcept { return enum_name(fate); }
 
-std::string_view name(LineKind kind) noexcept { return enum_names<LineKind>[static_cast<std::size_t>(kind)]; }
+std::string_view name(LineKind kind) noexcept { return enum_name(kind); }
 
 namespace {
 

@@ -13,12 +13,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// A state's value as text: its name in the source.
-template <class Enum>
-std::string_view word(Enum value) {
-    return enum_names<Enum>.at(static_cast<std::size_t>(value));
-}
-
 std::string bits(float value) { return fmt::format("{:08x}", std::bit_cast<std::uint32_t>(value)); }
 
 ordered_json bits(const std::array<float, 4>& color) {
@@ -38,7 +32,7 @@ ordered_json all_held(const std::vector<TargetValues>& list) {
 }
 
 ordered_json json_of_term(const pipeline::BlendTerm& t) {
-    return {{"equation", word(t.equation)}, {"src", word(t.src)}, {"dst", word(t.dst)}};
+    return {{"equation", enum_name(t.equation)}, {"src", enum_name(t.src)}, {"dst", enum_name(t.dst)}};
 }
 
 ordered_json json_of_blend(const pipeline::Blend& b) {
@@ -50,19 +44,21 @@ ordered_json json_of_blend(const pipeline::Blend& b) {
 }
 
 ordered_json json_of_face(const pipeline::StencilFace& f) {
-    return {{"func", word(f.func)},       {"ref", f.ref},         {"func_mask", f.func_mask},
-            {"write_mask", f.write_mask}, {"fail", word(f.fail)}, {"depth_fail", word(f.depth_fail)},
-            {"pass", word(f.pass)}};
+    return {{"func", enum_name(f.func)}, {"ref", f.ref},
+            {"func_mask", f.func_mask},  {"write_mask", f.write_mask},
+            {"fail", enum_name(f.fail)}, {"depth_fail", enum_name(f.depth_fail)},
+            {"pass", enum_name(f.pass)}};
 }
 
 // The tests of the pass.
 ordered_json json_of_tests(const Line& line) {
     ordered_json document = ordered_json::object();
     const pipeline::PassState& state = line.state;
-    if (state.alpha.enabled) document["alpha"] = {{"func", word(state.alpha.func)}, {"ref", bits(state.alpha.ref)}};
+    if (state.alpha.enabled)
+        document["alpha"] = {{"func", enum_name(state.alpha.func)}, {"ref", bits(state.alpha.ref)}};
     if (state.depth.enabled)
         document["depth"] = {
-            {"target", line.depth_target}, {"func", word(state.depth.func)}, {"write", state.depth.write}};
+            {"target", line.depth_target}, {"func", enum_name(state.depth.func)}, {"write", state.depth.write}};
     if (state.stencil.enabled)
         document["stencil"] = {{"target", line.stencil_target},
                                {"two_sided", state.stencil.two_sided},
@@ -139,9 +135,9 @@ ordered_json of_history(const History& history) {
 
 ordered_json of_pixel(const SampledHistory& history) {
     ordered_json document{{"algorithm", history.samples.at(0).algorithm},
-                          {"resolve", word(history.sampling.resolve)},
-                          {"loads", word(history.sampling.loads)},
-                          {"composites", word(history.sampling.composites)},
+                          {"resolve", enum_name(history.sampling.resolve)},
+                          {"loads", enum_name(history.sampling.loads)},
+                          {"composites", enum_name(history.sampling.composites)},
                           {"samples", ordered_json::array()},
                           {"format", pipeline::info(history.format).name},
                           {"picture", history.resolved}};

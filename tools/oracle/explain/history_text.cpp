@@ -123,13 +123,12 @@ std::string to_text(const SampledHistory& history) {
         text +=
             fmt::format("sample {} at {},{} sixteenths of the pixel: ", s, history.points[s].x, history.points[s].y) +
             to_text(history.samples[s]);
-    const auto word = [](auto value) { return enum_names<decltype(value)>.at(static_cast<std::size_t>(value)); };
     const peeling::Multisampling& sampling = history.sampling;
     if (sampling.is_joint())
         text += fmt::format("programs load the sample: {} in geometry passes, {} in full-screen passes\n",
-                            word(sampling.loads), word(sampling.composites));
+                            enum_name(sampling.loads), enum_name(sampling.composites));
     return text + fmt::format("the picture has {}: the {} resolve of {} samples\n", hex(history.resolved),
-                              word(sampling.resolve), history.samples.size());
+                              enum_name(sampling.resolve), history.samples.size());
 }
 
 std::vector<std::string> first_differences(std::span<const SampledHistory> histories) {

@@ -16,7 +16,7 @@ std::size_t check(const std::string& pack) {
     for (const strata::Simd simd : strata::available_simd()) {
         const auto found = strata::oracle::check_pack(pack, simd);
         for (const strata::oracle::PackFault& fault : found) fmt::print("{}/{}: {}\n", pack, fault.file, fault.message);
-        fmt::print("{}, {}: {}\n", pack, strata::enum_names<strata::Simd>[static_cast<std::size_t>(simd)],
+        fmt::print("{}, {}: {}\n", pack, strata::enum_name(simd),
                    found.empty() ? "every file is what is derived here" : "differs");
         faults += found.size();
     }

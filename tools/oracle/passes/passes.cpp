@@ -18,9 +18,7 @@ using pipeline::Region;
 using pipeline::Step;
 using pipeline::StepEvent;
 
-std::string_view name(ReportedPassKind kind) noexcept {
-    return enum_names<ReportedPassKind>[static_cast<std::size_t>(kind)];
-}
+std::string_view name(ReportedPassKind kind) noexcept { return enum_name(kind); }
 
 void TargetNames::add(pipeline::Target target, std::string_view name) {
     const auto id = static_cast<std::size_t>(target.id);

@@ -44,7 +44,7 @@ std::int64_t ordered(StoredCode stored) noexcept {
 
 }  // namespace
 
-std::string_view name(Code code) noexcept { return enum_names<Code>[static_cast<std::size_t>(code)]; }
+std::string_view name(Code code) noexcept { return enum_name(code); }
 
 double value(Code code, std::uint32_t word) noexcept {
     if (code == Code::half) return pipeline::half_to_float(static_cast<std::uint16_t>(word));

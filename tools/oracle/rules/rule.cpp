@@ -4,6 +4,6 @@
 
 namespace strata::oracle::verdict {
 
-std::string_view name(RuleKind kind) noexcept { return enum_names<RuleKind>[static_cast<std::size_t>(kind)]; }
+std::string_view name(RuleKind kind) noexcept { return enum_name(kind); }
 
 }  // namespace strata::oracle::verdict

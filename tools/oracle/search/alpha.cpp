@@ -201,10 +201,8 @@ std::string describe(const AlphaChecked& alpha) {
     return "alpha is 0 everywhere: nothing writes it";
 }
 
-std::string_view name(AlphaState state) noexcept { return enum_names<AlphaState>[static_cast<std::size_t>(state)]; }
+std::string_view name(AlphaState state) noexcept { return enum_name(state); }
 
-std::string_view name(AlphaMistake mistake) noexcept {
-    return enum_names<AlphaMistake>[static_cast<std::size_t>(mistake)];
-}
+std::string_view name(AlphaMistake mistake) noexcept { return enum_name(mistake); }
 
 }  // namespace strata::oracle::verdict

@@ -78,7 +78,7 @@ std::vector<OtherRules> other_rules(const RunInput& given, std::span<const Devic
         if (samples == 1 || pipeline::sample_points(positions, samples).empty()) continue;
         DeviceProfile profile = given.profile;
         profile.sample_positions = positions;
-        const auto name = enum_names<SamplePositions>[static_cast<std::size_t>(positions)];
+        const auto name = enum_name(positions);
         lister.add(fmt::format("the sample positions \"{}\"", name), profile);
     }
     for (const DeviceProfile& profile : more) lister.add("the rules of profile " + profile.name, profile);

@@ -28,9 +28,9 @@ std::string to_text(const pipeline::Termination& termination) {
         case pipeline::TerminationRule::paper: return "paper";
         case pipeline::TerminationRule::any: return "any";
         case pipeline::TerminationRule::ratio: return fmt::format("ratio:{}", termination.ratio);
-        case pipeline::TerminationRule::fixed: return fmt::format("fixed:{}", termination.passes);
+        case pipeline::TerminationRule::fixed: break;
     }
-    return "";  // unreachable: the enum is closed
+    return fmt::format("fixed:{}", termination.passes);
 }
 
 std::string to_text(const peeling::Sort& sort) {
@@ -39,9 +39,9 @@ std::string to_text(const peeling::Sort& sort) {
         case peeling::SortRule::exact: return "exact";
         case peeling::SortRule::reverse: return "reverse";
         case peeling::SortRule::bucket: return fmt::format("bucket:{}", sort.buckets);
-        case peeling::SortRule::shuffle: return fmt::format("shuffle:{},{}", sort.fraction, sort.seed);
+        case peeling::SortRule::shuffle: break;
     }
-    return "";  // unreachable: the enum is closed
+    return fmt::format("shuffle:{},{}", sort.fraction, sort.seed);
 }
 
 std::string to_text(const pipeline::Rgba& b) {

@@ -93,9 +93,9 @@ std::vector<double> numbers_of(Map map, const RunOptions& options, const Complet
             return sum([&](peeling::Renderer& renderer) { return ties(columns_of_frame(options, renderer)); });
         case Map::opaque_ties:
             return sum([&](peeling::Renderer& renderer) { return opaque_ties(options, finished.algorithm, renderer); });
-        case Map::error: return errors(options, finished);
+        case Map::error: break;
     }
-    return {};  // unreachable: the enum is closed
+    return errors(options, finished);
 }
 
 // The colour ramp black, red, yellow, white: in each third of the range one channel rises, first red, then green, then

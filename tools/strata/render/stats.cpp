@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "peeling/render.h"
+#include "rasterizer/base/enum_values.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/table.h"
 
@@ -14,14 +15,6 @@ using nlohmann::ordered_json;
 
 // False if the profile refused the algorithm.
 bool is_done(const RunSummary& run) { return run.result.outcome == peeling::Outcome::done; }
-
-std::string_view outcome_name(peeling::Outcome outcome) {
-    switch (outcome) {
-        case peeling::Outcome::done: return "done";
-        case peeling::Outcome::refused: return "refused";
-    }
-    return "";  // unreachable: the enum is closed
-}
 
 // These functions build the objects of a row, with the keys of scenes/reference/reports.md 1 in its order.
 // Null if counters were not requested.
@@ -38,20 +31,10 @@ ordered_json to_json(const std::optional<pipeline::Counters>& counted) {
             {"bytes_written", c.bytes_written}};
 }
 
-std::string_view name_of(pipeline::Path path) {
-    switch (path) {
-        case pipeline::Path::literal: return "literal";
-        case pipeline::Path::tiled: return "tiled";
-        case pipeline::Path::recorded: return "recorded";
-        case pipeline::Path::resolved: return "resolved";
-    }
-    return "";  // unreachable: the enum is closed
-}
-
 ordered_json to_json(const pipeline::Work& work) {
-    return {{"fragments", work.fragments}, {"regions", work.regions},
-            {"reruns", work.reruns},       {"tile_size", work.tile_size},
-            {"path", name_of(work.path)},  {"why", work.why.empty() ? ordered_json(nullptr) : ordered_json(work.why)}};
+    return {{"fragments", work.fragments},  {"regions", work.regions},
+            {"reruns", work.reruns},        {"tile_size", work.tile_size},
+            {"path", enum_name(work.path)}, {"why", work.why.empty() ? ordered_json(nullptr) : ordered_json(work.why)}};
 }
 
 ordered_json to_json(const std::vector<pipeline::Diagnostic>& diagnostics) {
@@ -87,7 +70,7 @@ std::vector<std::string> cells(const RunSummary& run, const RunContext& context)
     if (!is_done(run)) return {algorithm->name, "refused", "-", "-", "-", "-", "-", "-", "-", "-"};
     const peeling::AuditResult& audit = result.audit;
     const auto audited = [&](const std::string& text) { return context.audited ? text : "-"; };
-    return {algorithm->name, std::string(outcome_name(result.outcome)), fmt::format("{}", result.frame.passes.geometry),
+    return {algorithm->name, std::string(enum_name(result.outcome)), fmt::format("{}", result.frame.passes.geometry),
             audited(fmt::format("{}", audit.layers_max)),
             audited(audit.order_errors ? fmt::format("{}", *audit.order_errors) : "-"),
             audited(fmt::format("{}", audit.lost_by_ties)), audited(fmt::format("{:.3f}", audit.max_difference)),
@@ -100,7 +83,7 @@ std::vector<std::string> cells(const RunSummary& run, const RunContext& context)
 
 std::string path_text(const RunSummary& run) {
     const pipeline::Work& work = run.result.frame.work;
-    return fmt::format("{}: {}{}", run.algorithm->name, name_of(work.path), work.why.empty() ? "" : ": " + work.why);
+    return fmt::format("{}: {}{}", run.algorithm->name, enum_name(work.path), work.why.empty() ? "" : ": " + work.why);
 }
 
 ordered_json to_row(const RunSummary& run, const RunContext& context) {
@@ -116,7 +99,7 @@ ordered_json to_row(const RunSummary& run, const RunContext& context) {
     row["execution"] = name_of(executions, context.execution);
     row["simd"] = name_of(simds, context.simd);
     row["fragment_memory"] = context.fragment_memory;
-    row["outcome"] = outcome_name(result.outcome);
+    row["outcome"] = enum_name(result.outcome);
     row["refusal"] = refusal_of(run);
     row["width"] = context.width;
     row["height"] = context.height;

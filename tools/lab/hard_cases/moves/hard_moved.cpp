@@ -21,9 +21,9 @@ double depth_step(DepthFormat format) {
         case DepthFormat::d24: return 1.0 / 0xffffff;
         case DepthFormat::d32f: return 0x1p-24;
         case DepthFormat::d16f: return 0x1p-12;
-        case DepthFormat::d24f: return 0x1p-16;
+        case DepthFormat::d24f: break;
     }
-    return 0;  // unreachable: the enum is closed
+    return 0x1p-16;
 }
 
 RendererProperties properties_of(const DeviceProfile& profile, DepthFormat depth, const peeling::Algorithm& algorithm,

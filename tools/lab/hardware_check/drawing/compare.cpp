@@ -49,14 +49,12 @@ Row our_row(const SuitePicture& drawn, int y) {
                           [=](const std::uint32_t* c) { return std::uint32_t{packed_codes(c) != background}; });
         }
         case CaptureFormat::depth16: return row_of(drawn.image, y, [](const std::uint32_t* c) { return *c; });
-        case CaptureFormat::depth24: {
-            Row row = row_of(drawn.image, y, [](const std::uint32_t* c) { return *c << 8; });
-            for (int x = 0; x < picture_width && !drawn.stencil.codes.empty(); ++x)
-                row[static_cast<std::size_t>(x)] |= drawn.stencil.codes[drawn.stencil.index(x, y)];
-            return row;
-        }
+        case CaptureFormat::depth24: break;
     }
-    return {};  // unreachable: the enum is closed
+    Row row = row_of(drawn.image, y, [](const std::uint32_t* c) { return *c << 8; });
+    for (int x = 0; x < picture_width && !drawn.stencil.codes.empty(); ++x)
+        row[static_cast<std::size_t>(x)] |= drawn.stencil.codes[drawn.stencil.index(x, y)];
+    return row;
 }
 
 // A capture is always rgba8. Depth is unpacked as described in compare.h; if the drawn picture has no stencil, the
@@ -71,12 +69,10 @@ Row their_row(const SuitePicture& drawn, const Image& capture, int y) {
         }
         case CaptureFormat::depth16:
             return row_of(capture, y, [](Codes c) { return (c[0] >> 3) << 11 | (c[1] >> 2) << 5 | c[2] >> 3; });
-        case CaptureFormat::depth24: {
-            const std::uint32_t stencil = drawn.stencil.codes.empty() ? 0 : 0xff;
-            return row_of(capture, y, [=](Codes c) { return c[3] << 24 | c[0] << 16 | c[1] << 8 | (c[2] & stencil); });
-        }
+        case CaptureFormat::depth24: break;
     }
-    return {};  // unreachable: the enum is closed
+    const std::uint32_t stencil = drawn.stencil.codes.empty() ? 0 : 0xff;
+    return row_of(capture, y, [=](Codes c) { return c[3] << 24 | c[0] << 16 | c[1] << 8 | (c[2] & stencil); });
 }
 
 bool is_hidden(const SuitePicture& drawn, int x, int y) {

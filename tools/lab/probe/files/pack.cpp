@@ -113,7 +113,7 @@ ordered_json refusals(const ProbePack& pack) {
 
 }  // namespace
 
-std::string_view name(YDirection y) noexcept { return enum_names<YDirection>[static_cast<std::size_t>(y)]; }
+std::string_view name(YDirection y) noexcept { return enum_name(y); }
 
 ProbePack answer(const pipeline::DeviceProfile& profile, const std::vector<Item>& items,
                  const std::vector<YDirection>& orientations) {

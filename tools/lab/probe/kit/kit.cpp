@@ -39,9 +39,7 @@ ordered_json draw_json(const Draw& draw) {
     ordered_json json;
     json["blend"] = nullptr;
     if (draw.blend)
-        json["blend"] = {enum_names<pipeline::BlendEquation>[static_cast<std::size_t>(draw.blend->equation)],
-                         enum_names<pipeline::BlendFactor>[static_cast<std::size_t>(draw.blend->src)],
-                         enum_names<pipeline::BlendFactor>[static_cast<std::size_t>(draw.blend->dst)]};
+        json["blend"] = {enum_name(draw.blend->equation), enum_name(draw.blend->src), enum_name(draw.blend->dst)};
     json["polygon_offset"] = nullptr;
     if (draw.offset.enabled) json["polygon_offset"] = bits({draw.offset.factor, draw.offset.units});
     json["alpha_above"] = nullptr;

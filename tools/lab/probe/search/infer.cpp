@@ -250,6 +250,6 @@ Inference infer(const ProbePack& pack, const std::vector<Item>& items, YDirectio
     return result;
 }
 
-std::string_view name(FieldState state) noexcept { return enum_names<FieldState>[static_cast<std::size_t>(state)]; }
+std::string_view name(FieldState state) noexcept { return enum_name(state); }
 
 }  // namespace strata::probe

@@ -11,9 +11,9 @@ std::uint64_t part_of(const Nearness& n, Part part) {
         case Part::coverage: return n.coverage;
         case Part::depth: return n.depth;
         case Part::color: return n.color;
-        case Part::both: return n.depth + n.color;
+        case Part::both: break;
     }
-    return 0;  // unreachable: the enum is closed
+    return n.depth + n.color;
 }
 
 }  // namespace
