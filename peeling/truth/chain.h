@@ -39,17 +39,17 @@ inline constexpr std::array<Link, 7> links{{{"transform", &Chain::transform},
                                             {"store", &Chain::store}}};
 
 inline constexpr Chain exact_chain{};
-inline constexpr Chain machine_chain{false, false, false, false, false, false, false};
+inline constexpr Chain device_chain{false, false, false, false, false, false, false};
 
 // The chain whose first `count` links are exact; the others are as on the device.
 [[nodiscard]] constexpr Chain exact_up_to(std::size_t count) noexcept {
-    Chain chain = machine_chain;
+    Chain chain = device_chain;
     for (std::size_t i = 0; i < count; ++i) chain.*links[i].is_exact = true;
     return chain;
 }
 // The chain in which only `link` is exact; the others are as on the device.
 [[nodiscard]] constexpr Chain exact_alone(std::size_t link) noexcept {
-    Chain chain = machine_chain;
+    Chain chain = device_chain;
     chain.*links[link].is_exact = true;
     return chain;
 }

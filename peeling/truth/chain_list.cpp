@@ -99,7 +99,7 @@ void ChainList::fragments_of(std::size_t tile, std::vector<ChainFragment>& out) 
     if (is_real_)
         real_fragments(tile, out);
     else
-        machine_fragments(tile, out);
+        device_fragments(tile, out);
 }
 
 std::size_t ChainList::tile_count() const noexcept {
@@ -153,7 +153,7 @@ void ChainList::real_fragments(std::size_t tile, std::vector<ChainFragment>& out
 }
 
 // If a value is evaluated at the corners, triangles are drawn one by one, so that a batch belongs to one triangle.
-void ChainList::machine_fragments(std::size_t tile, std::vector<ChainFragment>& out) const {
+void ChainList::device_fragments(std::size_t tile, std::vector<ChainFragment>& out) const {
     const rasterizer::Geometry& geometry = prepared_.geometry;
     const bool needs_corners = chain_.color || (chain_.plane && chain_.conversion);
     const rasterizer::FragmentNeeds needs{.shader_z = true,

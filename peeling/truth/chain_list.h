@@ -50,7 +50,7 @@ class ChainList {
     [[nodiscard]] rasterizer::Rect tile_rect(std::size_t tile) const noexcept;
 
   private:
-    void machine_fragments(std::size_t tile, std::vector<ChainFragment>& out) const;
+    void device_fragments(std::size_t tile, std::vector<ChainFragment>& out) const;
     void real_fragments(std::size_t tile, std::vector<ChainFragment>& out) const;
     void take(rasterizer::FragmentBatch& batch, const RealTriangle* triangle, std::vector<ChainFragment>& out) const;
     // Empty if MASK discards the fragment.

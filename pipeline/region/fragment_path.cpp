@@ -11,7 +11,7 @@ namespace {
 // The state that the texture shader reads in addition to its stages: the depth range and clamp of the draw list, the
 // format of a replaced depth, and each unit's depth texture, either an image of the caller or a depth target of this
 // region.
-ShaderDevice machine_of(const Region& region, const ShaderStages& stages) {
+ShaderDevice device_of(const Region& region, const ShaderStages& stages) {
     const rasterizer::RasterState& raster = region.frame().transparent->geometry.state;
     ShaderDevice device;
     device.profile = &region.profile();
@@ -38,7 +38,7 @@ ShaderDevice machine_of(const Region& region, const ShaderStages& stages) {
 FragmentPathProgram::FragmentPathProgram(const Region& region, const FragmentPath& path)
     : path_{path},
       ops_{consistent_operations(path.shader)},
-      machine_{machine_of(region, path.shader)},
+      device_{device_of(region, path.shader)},
       combiners_{path.combiners},
       results_{std::make_unique<ShaderResults>()} {
     // Depth replace is a stage of NV_texture_shader: a profile without it has no texture shader at all
@@ -61,7 +61,7 @@ void FragmentPathProgram::apply(PassState& state) const {
 // whose colours are never stored.
 void FragmentPathProgram::operator()(const FragmentBatch& in, const Loads&, Outputs& out) {
     const auto count = static_cast<std::size_t>(in.count);
-    run_texture_shader(path_.shader, ops_, machine_, in, *results_);
+    run_texture_shader(path_.shader, ops_, device_, in, *results_);
     for (std::size_t i = 0; i < count; ++i) out.alive[i] &= results_->alive[i];
     if (replaces_depth(ops_)) {
         std::copy_n(results_->code.begin(), count, out.depth.begin());

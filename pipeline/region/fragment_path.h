@@ -36,7 +36,7 @@ class FragmentPathProgram {
   private:
     FragmentPath path_;
     ShaderOps ops_;
-    ShaderDevice machine_;
+    ShaderDevice device_;
     CombinerUnit combiners_;
     std::unique_ptr<ShaderResults> results_;
 };

@@ -166,7 +166,7 @@ TEST_CASE("the chain to the truth begins at a picture in a format other than tha
     const auto list = draw_list(scene);
     const DeviceProfile& profile = *find_profile("geforce8");
     const auto machine = peeling::real_image(render(scene, {"geforce8", "depth_units"}, options).frame.color);
-    CHECK(peeling::render_chain({list, {}, profile, options}, peeling::machine_chain) == machine);
+    CHECK(peeling::render_chain({list, {}, profile, options}, peeling::device_chain) == machine);
 }
 
 }  // namespace strata::testing::formats_model

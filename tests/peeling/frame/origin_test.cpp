@@ -152,7 +152,7 @@ TEST_CASE("the chain to the truth begins at the machine's picture also from the 
     Renderer below{all.scene.list, all.scene.view, all.below, all.options};
     const auto machine = strata::peeling::real_image(below.render(*find_algorithm("depth_units")).frame.color);
     CHECK(strata::peeling::render_chain({all.scene.list, all.scene.view, all.below, all.options},
-                                        strata::peeling::machine_chain) == machine);
+                                        strata::peeling::device_chain) == machine);
 }
 
 TEST_CASE("a device that draws from another corner keeps its ties on the same sides of the picture") {

@@ -63,7 +63,7 @@ TEST_CASE("a chain without an exact link is bit-identical to the picture of sequ
         for (std::uint64_t seed = 0; seed < 4; ++seed) {
             INFO(profile << ", seed " << seed);
             const DrawList list = random_chain_list(seed, parts_of(seed));
-            const Both seen = both(list, profile, chain_options(), machine_chain, "depth_units");
+            const Both seen = both(list, profile, chain_options(), device_chain, "depth_units");
             CHECK(seen.chain == seen.machine);
         }
 }
@@ -72,7 +72,7 @@ TEST_CASE("render_chain rejects devices without exact planes and snapped edges a
     const DrawList list = random_chain_list(0, parts_of(0));
     for (const char* profile : {"llvmpipe", "llvmpipe_sse", "softpipe", "swiftshader"})
         CHECK_THROWS_WITH(
-            render_chain({list, chain_view, *find_profile(profile), chain_options()}, machine_chain),
+            render_chain({list, chain_view, *find_profile(profile), chain_options()}, device_chain),
             Catch::Contains("expected exact planes, snapped edges and a guard band") && Catch::Contains(profile));
 }
 
@@ -85,14 +85,14 @@ TEST_CASE("a chain without an exact link equals depth_units for every depth path
                                      DepthPath::float32_plane, DepthPath::exact}) {
             options.depth = format;
             options.depth_path = path;
-            const Both seen = both(list, "geforce3", options, machine_chain, "depth_units");
+            const Both seen = both(list, "geforce3", options, device_chain, "depth_units");
             INFO(static_cast<int>(path));
             CHECK(seen.chain == seen.machine);
         }
     options = chain_options();
     for (const Format format : {Format::rgba8, Format::rgba16f, Format::rgba32f}) {
         options.color_format = format;
-        const Both seen = both(list, "geforce8", options, machine_chain, "depth_units");
+        const Both seen = both(list, "geforce8", options, device_chain, "depth_units");
         CHECK(seen.chain == seen.machine);
     }
 }
@@ -100,7 +100,7 @@ TEST_CASE("a chain without an exact link equals depth_units for every depth path
 TEST_CASE("exact blending alone on exact depths is bit-identical to the picture of the A-buffer", "[slow]") {
     RenderOptions options = chain_options();
     options.depth_path = DepthPath::exact;
-    Chain chain = machine_chain;
+    Chain chain = device_chain;
     chain.blend = true;
     for (const char* profile : {"geforce3", "geforce8", "ideal"})
         for (std::uint64_t seed = 20; seed < 24; ++seed) {

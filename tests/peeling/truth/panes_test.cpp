@@ -88,7 +88,7 @@ double distance(const RealImage& image, const RealColor& expected) {
 }
 
 Chain chain_of(unsigned bits) {
-    Chain chain = machine_chain;
+    Chain chain = device_chain;
     for (std::size_t i = 0; i < links.size(); ++i) chain.*links[i].is_exact = (bits >> i & 1) != 0;
     return chain;
 }
@@ -162,7 +162,7 @@ TEST_CASE("the chain rejects every rule other than exact planes or snapped edges
         if (rule == 0) other.raster.plane_rule = strata::rasterizer::PlaneRule::least_corner;
         if (rule == 1) other.raster.coverage = strata::rasterizer::CoverageRule::float_spans;
         if (rule == 2) other.raster.clip = strata::rasterizer::ClipVolume::view_volume;
-        CHECK_THROWS_AS(render_chain({list, chain_view, other, options}, machine_chain), strata::InputError);
+        CHECK_THROWS_AS(render_chain({list, chain_view, other, options}, device_chain), strata::InputError);
         CHECK_NOTHROW(render_chain({list, chain_view, other, options}, exact_chain));
     }
 }

@@ -129,7 +129,7 @@ Command add_bench(CLI::App& root) {
         *app, options->algorithms, "--algorithm", names, values_of(names),
         "algorithms, separated by commas, or depth for one opaque depth pass (default: all; with --per-effect: dual)");
     add_profile_option(*app, options->run.profile);
-    add_machine_options(*app, options->run);
+    add_device_options(*app, options->run);
     add_order_options(*app, options->run.render);
     add_view_options(*app, options->run);
     add_choices(*app, options->executions, "--execution", executions, values_of(executions),

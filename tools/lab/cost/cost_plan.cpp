@@ -167,7 +167,7 @@ void chain_cells(const CostBase& base, Cells& cells) {
     const auto with = [&](const std::string& knob, const std::string& value, const peeling::Chain& chain) {
         add(cells, base, knob, value, [&](CostCell& cell) { cell.chain = chain; });
     };
-    with("chain", "machine", peeling::machine_chain);
+    with("chain", "device", peeling::device_chain);
     for (std::size_t i = 0; i < peeling::links.size(); ++i)
         with("chain", std::string(peeling::links[i].name), peeling::exact_up_to(i + 1));
     for (std::size_t i = 0; i < peeling::links.size(); ++i)

@@ -101,8 +101,8 @@ def chain_blocks(rows):
 
 def chain_sentence(rows):
     left = {row["value"]: row["rmse"] for row in rows if row["knob"] == "chain"}
-    return (f"{left['machine']:.3g} on {rows[0]['scene']}, {left['snap']:.3g} with exact corners, {left['blend']:.3g} with exact blending as well, "
-            f"{left['store']:.3g} stored exactly") if "machine" in left else None
+    return (f"{left['device']:.3g} on {rows[0]['scene']}, {left['snap']:.3g} with exact corners, {left['blend']:.3g} with exact blending as well, "
+            f"{left['store']:.3g} stored exactly") if "device" in left else None
 
 
 def repeats(twice):

@@ -62,7 +62,7 @@ peeling::RenderOptions hard_options(const scenes::HardCase& hard, std::optional<
 }
 
 // A renderer with settings that must not change a bit of the result.
-struct HardMachine::Way {
+struct HardCaseRenderer::Way {
     std::string name;
     std::unique_ptr<peeling::Renderer> renderer;
 };
@@ -203,7 +203,7 @@ void judge(HardRow& row, const scenes::HardCase& hard, const peeling::Algorithm&
     judge_geometry(row, hard, algorithm);
 }
 
-HardMachine::HardMachine(const scenes::HardCase& hard, const DeviceProfile& profile, DepthFormat depth)
+HardCaseRenderer::HardCaseRenderer(const scenes::HardCase& hard, const DeviceProfile& profile, DepthFormat depth)
     : hard_{hard},
       profile_{profile},
       scene_{make_hard_case({}, hard)},
@@ -213,10 +213,10 @@ HardMachine::HardMachine(const scenes::HardCase& hard, const DeviceProfile& prof
         ways_.push_back({name, std::make_unique<peeling::Renderer>(scene_.list, *scene_.own_view, profile_, options)});
 }
 
-HardMachine::~HardMachine() = default;
+HardCaseRenderer::~HardCaseRenderer() = default;
 
-std::vector<std::string> HardMachine::unlike_ways(const peeling::Algorithm& algorithm,
-                                                  const peeling::RenderResult& first) {
+std::vector<std::string> HardCaseRenderer::unlike_ways(const peeling::Algorithm& algorithm,
+                                                       const peeling::RenderResult& first) {
     std::vector<std::string> unlike;
     for (std::size_t i = 1; i < ways_.size(); ++i)
         if (!is_alike(first, ways_[i].renderer->render(algorithm))) unlike.push_back(ways_[i].name);
@@ -249,7 +249,7 @@ std::vector<std::string> ways_of(const scenes::HardCase& hard) {
     return names;
 }
 
-HardRow HardMachine::run(const peeling::Algorithm& algorithm) {
+HardRow HardCaseRenderer::run(const peeling::Algorithm& algorithm) {
     if (const std::string reason = reason_to_leave_out(hard_, algorithm); !reason.empty()) return refused(reason);
     peeling::Renderer& renderer = *ways_.front().renderer;
     const peeling::RenderResult result = renderer.render(algorithm);

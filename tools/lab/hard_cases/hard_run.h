@@ -58,10 +58,10 @@ struct HardRow {
 };
 
 // One case on one device. Not thread-safe.
-class HardMachine {
+class HardCaseRenderer {
   public:
-    HardMachine(const scenes::HardCase& hard, const pipeline::DeviceProfile& profile, pipeline::DepthFormat depth);
-    ~HardMachine();
+    HardCaseRenderer(const scenes::HardCase& hard, const pipeline::DeviceProfile& profile, pipeline::DepthFormat depth);
+    ~HardCaseRenderer();
     [[nodiscard]] HardRow run(const peeling::Algorithm& algorithm);
 
   private:

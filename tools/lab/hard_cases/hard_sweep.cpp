@@ -83,12 +83,12 @@ std::vector<std::string> hard_columns() {
     return columns;
 }
 
-// The HardMachine of the last cells, and the number of their group.
+// The HardCaseRenderer of the last cells, and the number of their group.
 struct HardCache {
     std::size_t group = 0;
-    std::optional<HardMachine> machine;
+    std::optional<HardCaseRenderer> renderer;
     const scenes::HardCase* hard = nullptr;
-    std::optional<MovedMachine> moved;
+    std::optional<MovedCaseRenderer> moved;
 };
 
 std::optional<MovedRow> moved_row(const HardSweep& sweep, const HardCell& cell, const HardRow& row, HardCache& cache) {
@@ -101,11 +101,11 @@ std::optional<MovedRow> moved_row(const HardSweep& sweep, const HardCell& cell, 
 MeasuredRow hard_measured(const HardSweep& sweep, std::size_t number, HardCache& cache) {
     const auto start = std::chrono::steady_clock::now();
     const HardCell cell = hard_cell(sweep, number);
-    if (!cache.machine || cache.group != cell.group) {
-        cache.machine.emplace(*cell.hard, *cell.profile, cell.format);
+    if (!cache.renderer || cache.group != cell.group) {
+        cache.renderer.emplace(*cell.hard, *cell.profile, cell.format);
         cache.group = cell.group;
     }
-    const HardRow row = cache.machine->run(*cell.algorithm);
+    const HardRow row = cache.renderer->run(*cell.algorithm);
     const ordered_json line = to_line(sweep, number, row, moved_row(sweep, cell, row, cache));
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     return {.line = line, .timing = {{"cell", number}, {"seconds", taken.count()}}, .seconds = taken.count()};

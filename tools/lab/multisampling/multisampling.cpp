@@ -187,7 +187,7 @@ Command add_multisampling(CLI::App& root) {
         ->type_name("NAME[,NAME...]");
     add_choice(*app, options->run.samples, "--samples", sample_counts, "samples per pixel, 2, 4 or 8 (default 4)");
     add_profile_option(*app, options->run.profile);
-    add_machine_options(*app, options->run);
+    add_device_options(*app, options->run);
     add_view_options(*app, options->run);
     add_path(*app, options->run.output,
              {"-o,--output", "FOLDER", "folder for results.jsonl, results.csv and timings.jsonl", "a folder"});

@@ -2,7 +2,7 @@
 //
 // Rule     The image of every mistake is compared with the candidate, pixel by pixel and code by code; findings are
 //          ranked by the number of pixels that agree. The correct run precedes all mistakes that explain no more
-//          pixels, and a mistake precedes those after it in the catalogue; options of machine_options.h, if there are
+//          pixels, and a mistake precedes those after it in the catalogue; options of allowed_options.h, if there are
 //          any, precede all mistakes. A mistake that does not change the image of this scene is not a finding. If no
 //          single mistake explains every pixel, pairs are tried: first all that end with a mistake of the finished
 //          image, then those that contradict the candidate least where only one of the two changes the pixel. For a

@@ -36,7 +36,7 @@ std::string first_line(const Diagnosis& d) {
     if (!d.structure.empty()) return d.structure;
     if (d.passes_contradict)
         return fmt::format(
-            "none that is known: the picture is that of: {}; but no known machine that leaves it has these passes\n",
+            "none that is known: the picture is that of: {}; but no known renderer that draws it has these passes\n",
             description_of(best.mistakes));
     if (d.conclusion == Conclusion::unknown_mistake && d.is_blank)
         return "none that is known: the picture has one colour everywhere: nothing was drawn, or the picture was never "

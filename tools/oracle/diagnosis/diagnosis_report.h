@@ -8,7 +8,7 @@ namespace strata::oracle {
 
 [[nodiscard]] std::string_view name(Conclusion conclusion) noexcept;
 
-// "colours multiplied by their alpha twice (premultiplied_twice); and: ..."; "the right machine" if empty.
+// "colours multiplied by their alpha twice (premultiplied_twice); and: ..."; "the correct renderer" if empty.
 [[nodiscard]] std::string description_of(const std::vector<const Mistake*>& mistakes);
 
 // `comparison`: of the correct image and the candidate. The first line is the verdict; the next best findings follow,

@@ -9,7 +9,7 @@ std::span<const Mistake> catalogue() {
         std::vector<Mistake> list;
         for (const auto part :
              {mistakes_of_samples(), mistakes_of_fixed_passes(), mistakes_of_reported_ports(), mistakes_of_steps(),
-              mistakes_of_programs(), mistakes_of_machine(), mistakes_of_scene(), mistakes_of_picture()})
+              mistakes_of_programs(), mistakes_of_device(), mistakes_of_scene(), mistakes_of_picture()})
             list.insert(list.end(), part.begin(), part.end());
         return list;
     }();

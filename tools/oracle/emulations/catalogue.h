@@ -17,7 +17,7 @@
 namespace strata::oracle {
 
 // What a mistake changes.
-enum class ChangedPart : std::uint8_t { scene, machine, steps, programs, samples, picture };
+enum class ChangedPart : std::uint8_t { scene, device, steps, programs, samples, picture };
 
 struct Mistake {
     std::string name{};         // "one_pass_too_few"
@@ -25,7 +25,7 @@ struct Mistake {
     ChangedPart part{};
     // Returns false if the experiment has nothing that the mistake could change.
     std::function<bool(AlteredRun& experiment)> make{};
-    bool is_allowed = false;  // a correct port may do this: an option of machine_options.h
+    bool is_allowed = false;  // a correct port may do this: an option of allowed_options.h
 };
 
 [[nodiscard]] std::span<const Mistake> catalogue();
@@ -34,7 +34,7 @@ struct Mistake {
 
 // The parts of the catalogue, one file each; those of single algorithms come first.
 [[nodiscard]] std::span<const Mistake> mistakes_of_scene();
-[[nodiscard]] std::span<const Mistake> mistakes_of_machine();
+[[nodiscard]] std::span<const Mistake> mistakes_of_device();
 [[nodiscard]] std::span<const Mistake> mistakes_of_steps();
 [[nodiscard]] std::span<const Mistake> mistakes_of_programs();
 [[nodiscard]] std::span<const Mistake> mistakes_of_fixed_passes();

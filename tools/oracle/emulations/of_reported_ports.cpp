@@ -178,7 +178,7 @@ bool loses_far_ends(AlteredRun& e) {
 
 const Mistake reported_mistakes[] = {
     {"list_of_8_last", "of a pixel's fragments the last 8 submitted kept: the list cut from its head",
-     ChangedPart::machine, keeps_last_8},
+     ChangedPart::device, keeps_last_8},
     {"list_skips_equal_depths", "fragments at the depth of the one before skipped as the list is composited",
      ChangedPart::programs, skips_equal_depths},
     {"sums_not_premultiplied", "colours weighted but not multiplied by their alpha", ChangedPart::programs,

@@ -69,18 +69,18 @@ std::uint64_t far_pixels(const TargetImage& a, const TargetImage& b, std::uint32
 }
 
 // True if the first difference is in a later pass than that of the correct run, which has one.
-bool is_later(const std::optional<int>& machine, const std::optional<int>& right) {
-    return right && (!machine || *machine > *right);
+bool is_later(const std::optional<int>& emulation, const std::optional<int>& right) {
+    return right && (!emulation || *emulation > *right);
 }
 
 }  // namespace
 
-bool explains_origin(const PassAgreement& machine, const PassAgreement& right) {
-    const bool starts_there = machine.first_far && machine.first_far == right.first_far;
+bool explains_origin(const PassAgreement& emulation, const PassAgreement& right) {
+    const bool starts_there = emulation.first_far && emulation.first_far == right.first_far;
     const auto pass = static_cast<std::size_t>(right.first_far.value_or(0));
-    const bool is_nearly = starts_there && 20 * machine.far[pass] <= right.far[pass];
-    return machine.is_whole() || is_nearly || is_later(machine.first_unlike, right.first_unlike) ||
-           is_later(machine.first_far, right.first_far);
+    const bool is_nearly = starts_there && 20 * emulation.far[pass] <= right.far[pass];
+    return emulation.is_whole() || is_nearly || is_later(emulation.first_unlike, right.first_unlike) ||
+           is_later(emulation.first_far, right.first_far);
 }
 
 void PassEvidence::add(const PassReport& pass, std::span<const TargetImage> instead) {

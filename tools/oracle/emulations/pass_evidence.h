@@ -29,7 +29,7 @@ struct PassAgreement {
 
 // True if a run's passes equal the candidate's, or first differ in a later pass than the correct run's, or have at most
 // a twentieth of the correct run's far-off pixels in its first far-off pass, as from edges with other rounding.
-[[nodiscard]] bool explains_origin(const PassAgreement& machine, const PassAgreement& right);
+[[nodiscard]] bool explains_origin(const PassAgreement& emulation, const PassAgreement& right);
 
 // Receives a run's passes one after another.
 class PassEvidence {

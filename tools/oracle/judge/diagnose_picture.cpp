@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "pipeline/device/profile.h"
-#include "tools/oracle/emulations/machine_options.h"
+#include "tools/oracle/emulations/allowed_options.h"
 #include "tools/oracle/judge/judge.h"
 #include "tools/oracle/picture/stored_like.h"
 
@@ -76,7 +76,7 @@ PictureDiagnosis diagnose_picture(const DiagnosisQuestion& question, const ShowP
     const MistakeRenderer renderer{question.input, question.algorithm,
                                    has_depth(question.candidate) ? Depths::made : Depths::left_out, question.limit};
     PictureDiagnosis result{.options = std::make_shared<const std::vector<Mistake>>(
-                                machine_options(question.algorithm, renderer.right_run(), question.more))};
+                                allowed_options(question.algorithm, renderer.right_run(), question.more))};
     const MistakeImages images{renderer, emulations, *result.options};
     result.found = images.diagnose(question.candidate, question.tolerances, pairs, question.passes);
     ask_layers(question, renderer.right(), result.found);

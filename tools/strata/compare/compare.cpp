@@ -290,7 +290,7 @@ Command add_compare(CLI::App& root) {
     add_reading_options(*app, options->run.scene_options);
     add_profile_option(*app, options->run.profile);
     add_origin_option(*app, options->run.origin);
-    add_machine_options(*app, options->run);
+    add_device_options(*app, options->run);
     add_order_options(*app, options->run.render);
     add_view_options(*app, options->run);
     add_choice(*app, options->run.samples, "--samples", sample_counts,

@@ -79,7 +79,7 @@ std::vector<oracle::PassPicture> read_passes(const DiagnoseOptions& options, con
     return {};
 }
 
-// A scene, the candidate picture of it, and the simulated renderers with one mistake each ("machines").
+// A scene, the candidate picture of it, and the emulated renderers with one mistake each.
 struct OpenCase {
     DiagnoseOptions options;
     oracle::Picture candidate{};

@@ -94,7 +94,7 @@ void add_comparison(Words& words, const peeling::RenderOptions& render) {
     if (offset.enabled) add(words, "--polygon-offset", fmt::format("{},{}", offset.factor, offset.units));
 }
 
-void add_machine(Words& words, const RunOptions& options) {
+void add_device(Words& words, const RunOptions& options) {
     const peeling::RenderOptions& render = options.render;
     if (render.depth) add(words, "--depth-format", name_of(depth_formats, *render.depth));
     if (render.depth_path) add(words, "--depth-path", name_of(depth_paths(), *render.depth_path));
@@ -144,7 +144,7 @@ std::string canonical_command(const std::string& verb, const RunOptions& options
     if (options.origin) add(words, "--origin", name_of(origins, *options.origin));
     add_scene(words, options);
     add_view(words, options);
-    add_machine(words, options);
+    add_device(words, options);
     if (options.samples != 1) add(words, "--samples", fmt::format("{}", options.samples));
     if (options.shades_pixels) add(words, "--shading", "pixel");
     if (options.shades_pixels && options.render.raster.interpolation == rasterizer::Interpolation::centroid)

@@ -203,7 +203,7 @@ void add_picture_options(CLI::App& app, RunOptions& options) {
     add_algorithm_option(app, options);
     add_profile_option(app, options.profile);
     add_origin_option(app, options.origin);
-    add_machine_options(app, options);
+    add_device_options(app, options);
     add_sample_options(app, options);
     add_order_options(app, options.render);
     add_view_options(app, options);

@@ -72,7 +72,7 @@ void add_execution_options(CLI::App& app, RunOptions& options);
 
 // Parts of the two functions above, for a command in which the other options take lists.
 void add_reading_options(CLI::App& app, scenes::SceneOptions& options);  // --scene, --color-space, --no-light
-void add_machine_options(CLI::App& app, RunOptions& options);            // --depth-format ... --stochastic-seed
+void add_device_options(CLI::App& app, RunOptions& options);             // --depth-format ... --stochastic-seed
 void add_order_options(CLI::App& app, peeling::RenderOptions& options);  // --formulation, --sorted, --sort
 void add_profile_option(CLI::App& app, std::string& profile);
 void add_origin_option(CLI::App& app, std::optional<pipeline::Origin>& origin);

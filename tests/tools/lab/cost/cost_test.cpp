@@ -49,7 +49,7 @@ TEST_CASE("the exact end of the chain leaves an error of 0 and the device's own 
     REQUIRE(cost(folder, "out").status == 0);
     const auto rows = rows_of(content_of(folder / "out/results.csv"));
     CHECK(number(rows.at("chain store"), "rmse") == 0);
-    CHECK(number(rows.at("chain machine"), "rmse") > 0);
+    CHECK(number(rows.at("chain device"), "rmse") > 0);
     CHECK(rows.at("chain store").at("sorted_rmse").empty());
 }
 

@@ -35,7 +35,7 @@ def write(folder, choices):
 
 
 CHOICES = [("default", "front_to_back", 0.5, 0.75, 1.0), ("algorithm", "dual rgba8", 0.5, 0.75, 0.5), ("algorithm", "a_buffer rgba8", 0, 0.25, 2.0),
-           ("algorithm", "unsorted rgba8", 9, 9.5, 0.25), ("algorithm", "k_buffer rgba8", None, None, None), ("chain", "machine", None, 0.75, None),
+           ("algorithm", "unsorted rgba8", 9, 9.5, 0.25), ("algorithm", "k_buffer rgba8", None, None, None), ("chain", "device", None, 0.75, None),
            ("chain", "snap", None, 0.5, None), ("chain", "blend", None, 0.25, None), ("chain", "store", None, 0.0, None), ("alone", "snap", None, 0.6, None)]
 
 
@@ -71,7 +71,7 @@ def check_whole(folder):
     blocks = list(page.whole_page([measured]))
     text = page.pages.markdown_of(blocks, folder / "WHOLE.md")
     table = page_checks.rows_of_table(text, "## made-up")
-    yield "the ranking, then the rest", [row[2] for row in table[1:7]] == ["a_buffer rgba8", "dual rgba8", "front_to_back", "unsorted rgba8", "k_buffer rgba8", "machine"]
+    yield "the ranking, then the rest", [row[2] for row in table[1:7]] == ["a_buffer rgba8", "dual rgba8", "front_to_back", "unsorted rgba8", "k_buffer rgba8", "device"]
     yield "ranks", [row[0] for row in table[1:7]] == ["1", "2", "3", "4", "-", "-"]
     yield "a row", table[1] == ["1", "algorithm", "a_buffer rgba8", "0", "0.25", "2 (1.8 to 2.2)", "2 (1.8 to 2.2)", "2"]
     yield "a refused row", table[5][3:] == ["-", "refused", "-", "-", "-"]

@@ -75,10 +75,10 @@ TEST_CASE("a renderer that loses a triangle in every second frame flips in cover
 // Stored depths flicker at a distance of one unit in every format, exact depths do not.
 TEST_CASE("stored depths flicker on every path where planes are one unit apart and exact depths never do", "[slow]") {
     const scenes::HardCase& hard = hard_named("planes-1-unit");
-    const tools::MovedMachine machine{hard};
+    const tools::MovedCaseRenderer renderer{hard};
     const pipeline::DeviceProfile& eight = *pipeline::find_profile("geforce8");
     const peeling::Algorithm& peel = *peeling::find_algorithm("front_to_back");
-    const tools::MovedRow row = machine.run(eight, pipeline::DepthFormat::d24, peel, {});
+    const tools::MovedRow row = renderer.run(eight, pipeline::DepthFormat::d24, peel, {});
     CHECK(row.own.order > 0);
     const nlohmann::ordered_json json = flicker_json(row);
     CHECK(json["paths"]["float32"]["order"] == row.own.order);
@@ -87,7 +87,7 @@ TEST_CASE("stored depths flicker on every path where planes are one unit apart a
     CHECK(json["paths"]["exact_unstored"]["order"] == 0);
     CHECK(row.stability.verdict == tools::StabilityVerdict::stable);
     // Other algorithms have no table of paths.
-    const auto other = machine.run(eight, pipeline::DepthFormat::d24, *peeling::find_algorithm("depth_units"), {});
+    const auto other = renderer.run(eight, pipeline::DepthFormat::d24, *peeling::find_algorithm("depth_units"), {});
     CHECK(flicker_json(other)["paths"].is_null());
 }
 

@@ -13,12 +13,12 @@ namespace {
 using namespace strata;
 using namespace strata::pipeline;
 using strata::test::peel_by_less;
-using tools::HardMachine;
+using tools::HardCaseRenderer;
 using tools::HardRow;
 using tools::HardVerdict;
 
 HardRow run(const char* hard, const char* profile, DepthFormat format, const peeling::Algorithm& algorithm) {
-    return HardMachine{*scenes::find_hard_case(hard), *find_profile(profile), format}.run(algorithm);
+    return HardCaseRenderer{*scenes::find_hard_case(hard), *find_profile(profile), format}.run(algorithm);
 }
 HardRow run(const char* hard, const char* profile, DepthFormat format, const char* algorithm) {
     return run(hard, profile, format, *peeling::find_algorithm(algorithm));
@@ -89,9 +89,9 @@ TEST_CASE("no algorithm fails on a selection of hard cases on any of four device
     for (const char* hard : {"planes-8-close", "cyclic-overlap", "three-through-a-point", "through-near-and-far",
                              "alpha-half-a-code", "infinite-vertices", "frame-1x1"})
         for (const char* profile : {"geforce3", "geforce8", "ideal", "llvmpipe"}) {
-            HardMachine machine{*scenes::find_hard_case(hard), *find_profile(profile), DepthFormat::d24};
+            HardCaseRenderer renderer{*scenes::find_hard_case(hard), *find_profile(profile), DepthFormat::d24};
             for (const peeling::Algorithm& algorithm : peeling::algorithms()) {
-                const HardRow row = machine.run(algorithm);
+                const HardRow row = renderer.run(algorithm);
                 if (row.verdict != HardVerdict::refused) ++rows;
                 if (row.verdict == HardVerdict::failed && first.empty())
                     first = std::string{hard} + " " + profile + " " + algorithm.name + ": " + row.reasons.front();

@@ -1,4 +1,4 @@
-// Expected values: alphas of the machine's own pictures are right by definition (background_alpha_test proves them);
+// Expected values: alphas of the renderer's own pictures are right by definition (background_alpha_test proves them);
 // wrong ones are worked out here, from the layers' alphas in binary64.
 #include "tools/oracle/search/alpha.h"
 

@@ -43,8 +43,8 @@ bool is_moved(const peeling::Algorithm& algorithm) {
     return std::find(names.begin(), names.end(), algorithm.name) != names.end();
 }
 
-MovedRow MovedMachine::run(const DeviceProfile& profile, DepthFormat depth, const peeling::Algorithm& algorithm,
-                           const HardRow& row) const {
+MovedRow MovedCaseRenderer::run(const DeviceProfile& profile, DepthFormat depth, const peeling::Algorithm& algorithm,
+                                const HardRow& row) const {
     const scenes::HardCase& hard = moved_.hard();
     const RenderFunction as_is = [&](const scenes::Scene& scene, const View& view) {
         peeling::Renderer renderer{scene.list, view, profile, hard_options(hard, depth)};

@@ -22,9 +22,9 @@ struct MovedRow {
 };
 
 // The measurements of one case; exact answers are computed on first use.
-class MovedMachine {
+class MovedCaseRenderer {
   public:
-    explicit MovedMachine(const scenes::HardCase& hard) : moved_{hard}, path_{hard} {}
+    explicit MovedCaseRenderer(const scenes::HardCase& hard) : moved_{hard}, path_{hard} {}
     // `row` is the algorithm's result for the unmoved case.
     [[nodiscard]] MovedRow run(const pipeline::DeviceProfile& profile, pipeline::DepthFormat depth,
                                const peeling::Algorithm& algorithm, const HardRow& row) const;

@@ -1,5 +1,5 @@
 // Tests that the diagnosis finds the option with which a picture was made.
-#include "tools/oracle/emulations/machine_options.h"
+#include "tools/oracle/emulations/allowed_options.h"
 
 #include <catch2/catch.hpp>
 #include <set>
@@ -28,7 +28,7 @@ bool names(const Finding& finding, const char* name) {
 TEST_CASE(
     "options have unique names that no mistake has and limits of passes end below the number that the picture takes") {
     const peeling::Algorithm& front_to_back = *peeling::find_algorithm("front_to_back");
-    const std::vector<Mistake> all = machine_options(front_to_back, {.passes = 5, .enough_passes = 4});
+    const std::vector<Mistake> all = allowed_options(front_to_back, {.passes = 5, .enough_passes = 4});
     std::set<std::string> names, descriptions;
     for (const Mistake& option : all) {
         names.insert(option.name);
@@ -41,15 +41,15 @@ TEST_CASE(
     CHECK_FALSE(names.contains("passes_4"));
     pipeline::DeviceProfile mine = *pipeline::find_profile("geforce8");
     mine.name = "mine";
-    CHECK(machine_options(front_to_back, {}, {&mine, 1}).size() == machine_options(front_to_back, {}).size() + 1);
+    CHECK(allowed_options(front_to_back, {}, {&mine, 1}).size() == allowed_options(front_to_back, {}).size() + 1);
     CHECK(option_of(all, "passes_3").description == "only the nearest 3 layers of 4 (--max-passes 3)");
-    const auto of_dual = machine_options(*peeling::find_algorithm("dual"), {.passes = 5, .enough_passes = 4});
+    const auto of_dual = allowed_options(*peeling::find_algorithm("dual"), {.passes = 5, .enough_passes = 4});
     CHECK(option_of(of_dual, "passes_3").description == "only the first 3 passes of 4 (--max-passes 3)");
 }
 
 TEST_CASE("options are listed before mistakes and allowed ones are accepted and a limit of passes is a mistake") {
     const SceneFixture bench{"showroom.dual"};
-    const std::vector<Mistake> all = machine_options(*bench.opened.algorithm, bench.mistake_renderer.right_run());
+    const std::vector<Mistake> all = allowed_options(*bench.opened.algorithm, bench.mistake_renderer.right_run());
     const MistakeImages mistake_images{bench.mistake_renderer, {}, all};
     for (const char* name :
          {"profile_llvmpipe", "blend_truncate", "accumulators_rgba16f", "format_rgba32f", "back_rgba32f"}) {
@@ -75,7 +75,7 @@ TEST_CASE("options are listed before mistakes and allowed ones are accepted and 
 
 TEST_CASE("a resolved picture with other sample positions is right under that option") {
     const SceneFixture bench{"samples.front_to_back"};
-    const std::vector<Mistake> all = machine_options(*bench.opened.algorithm, bench.mistake_renderer.right_run());
+    const std::vector<Mistake> all = allowed_options(*bench.opened.algorithm, bench.mistake_renderer.right_run());
     const MistakeImages mistake_images{bench.mistake_renderer, {}, all};
     OpenScene other = open(*find_suite_scene("samples.front_to_back"));
     other.profile.sample_positions = pipeline::SamplePositions::nv20;
@@ -91,7 +91,7 @@ TEST_CASE("a resolved picture with other sample positions is right under that op
 
 TEST_CASE("two simultaneous options are found and accepted if both are allowed") {
     const SceneFixture bench{"showroom.dual"};
-    const std::vector<Mistake> all = machine_options(*bench.opened.algorithm, bench.mistake_renderer.right_run());
+    const std::vector<Mistake> all = allowed_options(*bench.opened.algorithm, bench.mistake_renderer.right_run());
     const MistakeImages mistake_images{bench.mistake_renderer, {}, all};
     const Mistake* const limited[] = {&option_of(all, "profile_llvmpipe"), &option_of(all, "passes_2")};
     const Diagnosis few = mistake_images.diagnose(bench.mistake_renderer.with(limited).value());

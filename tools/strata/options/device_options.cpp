@@ -1,4 +1,4 @@
-// tools/strata/options/machine_options.cpp - the options of the device, its state and the order of triangles. Result
+// tools/strata/options/device_options.cpp - the options of the device, its state and the order of triangles. Result
 // bits depend on them.
 #include <algorithm>
 #include <array>
@@ -96,7 +96,7 @@ void add_origin_option(CLI::App& app, std::optional<pipeline::Origin>& origin) {
 }
 
 // The options are declared in the order of --help.
-void add_machine_options(CLI::App& app, RunOptions& run) {
+void add_device_options(CLI::App& app, RunOptions& run) {
     peeling::RenderOptions& options = run.render;
     add_choice(app, options.depth, "--depth-format", depth_formats,
                "depth buffer (default d32f, or d24 where that is missing)");

@@ -1,4 +1,4 @@
-#include "tools/oracle/emulations/machine_options.h"
+#include "tools/oracle/emulations/allowed_options.h"
 
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ Format accumulators(const AlteredRun& e) {
 }
 
 Mistake allowed(std::string name, std::string description, std::function<bool(AlteredRun&)> make) {
-    return {std::move(name), std::move(description), ChangedPart::machine, std::move(make), true};
+    return {std::move(name), std::move(description), ChangedPart::device, std::move(make), true};
 }
 
 std::string_view words_for(BlendRounding rule) {
@@ -136,7 +136,7 @@ void add_limits(std::vector<Mistake>& all, const peeling::Algorithm& algorithm, 
         all.push_back({fmt::format("passes_{}", passes),
                        fmt::format("only the {}{} of {} (--max-passes {})", by_one ? "nearest" : "first",
                                    counted(passes, by_one ? "layer" : "pass"), right.enough_passes, passes),
-                       ChangedPart::machine, [passes](AlteredRun& e) {
+                       ChangedPart::device, [passes](AlteredRun& e) {
                            if (e.options.max_passes > 0 && e.options.max_passes <= passes) return false;
                            e.options.max_passes = passes;
                            return true;
@@ -150,7 +150,7 @@ void add_epsilons(std::vector<Mistake>& all) {
     for (const int ulps : {1, 2, 4, 16, 64})
         all.push_back({fmt::format("epsilon_{}_codes", ulps),
                        fmt::format("an epsilon of {} codes of depth added before peeled depths are compared", ulps),
-                       ChangedPart::machine, [ulps](AlteredRun& e) {
+                       ChangedPart::device, [ulps](AlteredRun& e) {
                            if (!takes_epsilon(e)) return false;
                            e.options.compare_epsilon.ulps += ulps;
                            return true;
@@ -158,7 +158,7 @@ void add_epsilons(std::vector<Mistake>& all) {
     for (const int bits : {24, 20, 14, 10})
         all.push_back({fmt::format("epsilon_2_{}", bits),
                        fmt::format("an epsilon of 2^-{} added before peeled depths are compared", bits),
-                       ChangedPart::machine, [bits](AlteredRun& e) {
+                       ChangedPart::device, [bits](AlteredRun& e) {
                            if (!takes_epsilon(e)) return false;
                            e.options.compare_epsilon.absolute += 1.0 / (1 << bits);
                            return true;
@@ -167,12 +167,12 @@ void add_epsilons(std::vector<Mistake>& all) {
 
 void add_background(std::vector<Mistake>& all) {
     all.push_back(
-        {"background_none", "a transparent background (--background none)", ChangedPart::machine, [](AlteredRun& e) {
+        {"background_none", "a transparent background (--background none)", ChangedPart::device, [](AlteredRun& e) {
              e.options.background = {0, 0, 0, 0};
              return true;
          }});
     all.push_back(
-        {"background_alpha_0", "the background's colour with alpha 0", ChangedPart::machine, [](AlteredRun& e) {
+        {"background_alpha_0", "the background's colour with alpha 0", ChangedPart::device, [](AlteredRun& e) {
              auto& background = e.options.background;
              background[3] = 0;
              return background != pipeline::Rgba{0, 0, 0, 0};
@@ -181,7 +181,7 @@ void add_background(std::vector<Mistake>& all) {
 
 }  // namespace
 
-std::vector<Mistake> machine_options(const peeling::Algorithm& algorithm, const RightRun& right,
+std::vector<Mistake> allowed_options(const peeling::Algorithm& algorithm, const RightRun& right,
                                      std::span<const DeviceProfile> more) {
     std::vector<Mistake> all;
     add_blends(all);
