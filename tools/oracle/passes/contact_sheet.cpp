@@ -17,8 +17,8 @@ using pipeline::ChannelType;
 using pipeline::Image;
 
 // Larger images are subsampled, smaller ones enlarged: with less than 96 pixels a column has no room for its name.
-constexpr int most_width_px = 160, least_width_px = 96, space_px = 4, letters = 2;
-constexpr int caption_px = letters * letter_height_px + 4, left_px = 128;
+constexpr int most_width_px = 160, least_width_px = 96, space_px = 4, letter_scale = 2;
+constexpr int caption_px = letter_scale * letter_height_px + 4, left_px = 128;
 
 // The value of sample 0.
 double value_of(const Image& image, int x, int y, int c) {
@@ -111,10 +111,11 @@ Image ContactSheet::image() const {
     fill(sheet, 0, 0, sheet.width, sheet.height, 48);
     for (std::size_t c = 0; c < columns_.size(); ++c)
         draw_text(sheet, left_px + column_px * static_cast<int>(c), 2,
-                  columns_[c].substr(0, static_cast<std::size_t>(column_px / (letters * letter_width_px))), letters);
+                  columns_[c].substr(0, static_cast<std::size_t>(column_px / (letter_scale * letter_width_px))),
+                  letter_scale);
     int top = caption_px;
     for (const Row& row : rows_) {
-        draw_text(sheet, 2, top + 2, row.caption, letters);
+        draw_text(sheet, 2, top + 2, row.caption, letter_scale);
         for (const Thumbnail& cell : row.cells) {
             const auto column = static_cast<int>(std::ranges::find(columns_, cell.target) - columns_.begin());
             const int left = left_px + column_px * column;
