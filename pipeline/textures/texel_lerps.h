@@ -1,7 +1,8 @@
 // pipeline/textures/texel_lerps.h - texture lookups with binary32 coordinates whose texels are mixed by linear
 // interpolations: along s, then along t.
 //
-// Rule     Texels and weights are those of texel_pair.h. Read as codes (code_lerps and code_lerps_fused, if no axis
+// Rule     Texels and weights are those of Mesa's drivers (texturing.md 2.5). Read as codes (code_lerps and
+// code_lerps_fused, if no axis
 //          mirrors and nothing is decoded): a, b become a + floor((w (b - a) + 128) / 256), times f32(1 / 255). Read as
 //          floats: a code's value is f32(code f32(1 / 255)), or that of srgb_mesa.h; a, b become f32(a + f32(w f32(b -
 //          a))), or fma(w, f32(b - a), a) under code_lerps_fused.
