@@ -3,7 +3,7 @@
 // Rule     Lists in other submission orders are prepared when an algorithm first requires them. The second list is
 //          drawn by all passes except the first, if another vertex path, another split of the surfaces or another depth
 //          clamp is requested.
-// Tests    tests/peeling/comparison_test.cpp, partial_order_test.cpp, frame/sort_test.cpp
+// Tests    tests/peeling/comparison_test.cpp, sequences/partial_order_test.cpp, frame/sort_test.cpp
 #pragma once
 #include <array>
 #include <optional>

@@ -2,7 +2,7 @@
 // terminate, and features that no device had.
 //
 // Source   peeling/reference/keys-and-counts.md 3.4 and 7.3.
-// Tests    tests/peeling/comparison_test.cpp, published_test.cpp, algorithms/shadow_map_test.cpp
+// Tests    tests/peeling/comparison_test.cpp, sequences/published_test.cpp, algorithms/shadow_map_test.cpp
 #pragma once
 #include <vector>
 

@@ -6,7 +6,7 @@
 //          the UNDER of under_text-inl.h, stored under MAX with the front that other fragments pass through. Dual back:
 //          the code of the far colour, OVER the stored back, where its alpha is not 0.
 // Ties     Fragments of one depth are one group: MAX over the values that each of them would store.
-// Tests    tests/peeling/loops/block_passes_test.cpp; tests/peeling/execution_test.cpp
+// Tests    tests/peeling/loops/block_passes_test.cpp; tests/peeling/execution/execution_test.cpp
 #pragma once
 #include <algorithm>
 

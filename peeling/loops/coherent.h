@@ -7,7 +7,7 @@
 //          nearest deeper fragment that was submitted before `nearest` (`previous`), and before the nearest fragment
 //          that is submitted later out of order (`breaker`). The least of these two depths and the opaque depth is
 //          `reached`; fragments exactly there are composited last, and the next iteration starts behind it.
-// Tests    tests/peeling/sequences_test.cpp, algorithms/coherent_test.cpp, published_test.cpp
+// Tests    tests/peeling/sequences/sequences_test.cpp, algorithms/coherent_test.cpp, published_test.cpp
 #pragma once
 #include "peeling/programs/depth_range.h"
 

@@ -1,6 +1,6 @@
 // peeling/loops/dual_resolve.cpp - dual peeling as a resolve: pass i takes the i-th depth from the front and the
 // i-th from the back. It runs by default instead of the passes of peeling/algorithms/dual.cpp, which define it: bits,
-// passes, queries and trace are the same. tests/peeling/execution_test.cpp and
+// passes, queries and trace are the same. tests/peeling/execution/execution_test.cpp and
 // sequences_test.cpp compare the two.
 //
 // Declines   where a pixel's fragments alone do not decide how far it is peeled (a ratio, the paper's exit), where

@@ -3,7 +3,7 @@
 // Rule     The result equals that of the passes, ties included: the same codes, queries and trace. If it does not
 //          apply, dual_resolve returns false without having counted anything, and the passes are executed.
 // Source   peeling/reference/algorithms.md 0.7.
-// Tests    tests/peeling/execution_test.cpp, sequences_test.cpp: comparison with literal execution
+// Tests    tests/peeling/execution/execution_test.cpp, sequences_test.cpp: comparison with literal execution
 #pragma once
 #include "pipeline/region/region.h"
 

@@ -2,7 +2,7 @@
 // loops.
 //
 // Rule     A fragment is visible if its key is less than the opaque surface's; an equal key is hidden.
-// Tests    tests/peeling/loops/block_passes_test.cpp, tests/peeling/execution_test.cpp
+// Tests    tests/peeling/loops/block_passes_test.cpp, tests/peeling/execution/execution_test.cpp
 #pragma once
 #include <algorithm>
 #include <array>

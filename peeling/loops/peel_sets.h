@@ -6,7 +6,7 @@
 //          ordered fragments up to it, then composites the layer, by equality of depth. As published, ordered fragments
 //          at the layer's own depth, and all fragments at depth 0, are lost, and unordered ones at the opaque surface
 //          are composited in every iteration.
-// Tests    tests/peeling/sequences_test.cpp, published_test.cpp
+// Tests    tests/peeling/sequences/sequences_test.cpp, published_test.cpp
 #pragma once
 #include <optional>
 

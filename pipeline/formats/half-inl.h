@@ -7,7 +7,7 @@
 //          convert this fast. On the others values_of_halves and codes_of_halves run lane by lane and rounded_to_half
 //          uses integers; with no_infinity all three run lane by lane.
 // Tests    tests/pipeline/stages/simd_stages_test.cpp; tests/peeling/loops/block_passes_test.cpp;
-//          tests/peeling/execution_test.cpp
+//          tests/peeling/execution/execution_test.cpp
 #include "hwy/highway.h"
 #include "pipeline/formats/half.h"
 

@@ -3,7 +3,7 @@
 //
 // Rule     unorm8_value and to_unorm8 of unorm8.h, bit for bit, for both roundings; `Words` is a tag of 32-bit words.
 // Tests    tests/pipeline/formats/unorm8_test.cpp: every code, and values at and next to every boundary;
-//          tests/peeling/execution_test.cpp
+//          tests/peeling/execution/execution_test.cpp
 #include "hwy/highway.h"
 #include "pipeline/formats/unorm8.h"
 

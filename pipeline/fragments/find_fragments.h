@@ -3,7 +3,7 @@
 //
 // Rule     The rules of FragmentSelection (frame/selection.h), with planes of one entry per pixel instead of targets.
 // Source   pipeline/reference/execution.md 7.1.
-// Tests    tests/pipeline/fragments/find_fragments_test.cpp; tests/peeling/selection_test.cpp
+// Tests    tests/pipeline/fragments/find_fragments_test.cpp; tests/peeling/execution/selection_test.cpp
 #pragma once
 #include <array>
 #include <bit>

@@ -8,7 +8,7 @@
 //          scattered indices. A coverage mask of samples would be one more array: nothing else here depends on the
 //          number of depths per pixel.
 // Source   pipeline/reference/execution.md 5.3 and 7.1.
-// Tests    tests/pipeline/fragments/tile_fragments_test.cpp; tests/peeling/execution_test.cpp
+// Tests    tests/pipeline/fragments/tile_fragments_test.cpp; tests/peeling/execution/execution_test.cpp
 #pragma once
 #include <array>
 #include <cstddef>

@@ -5,7 +5,7 @@
 //          fragments (Replay::bytes_per_fragment) and their sorted entries do. Parts take the position of their tile in
 //          the order. If a region's memory is less than two chunks of a store, nothing is split.
 // Source   pipeline/reference/execution.md 5.3.
-// Tests    tests/pipeline/fragments/tile_parts_test.cpp, tests/peeling/execution_test.cpp
+// Tests    tests/pipeline/fragments/tile_parts_test.cpp, tests/peeling/execution/execution_test.cpp
 #pragma once
 #include <array>
 #include <vector>

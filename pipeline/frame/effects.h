@@ -8,7 +8,7 @@
 //          triangles the test against the opaque depth is skipped, and no depth is interpolated for it, if every
 //          triangle's bound (rasterizer/set_up/depth_bound.h) is less than the cleared 1.
 // Source   pipeline/reference/execution.md 6.
-// Tests    tests/peeling/execution_test.cpp, tests/pipeline/frame/effects_test.cpp
+// Tests    tests/peeling/execution/execution_test.cpp, tests/pipeline/frame/effects_test.cpp
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -4,7 +4,7 @@
 // Rule     Bytes are counted as if there were no cache: a load, a test and a blend read the target's pixel for every
 //          fragment that arrives, and every fragment that passes is written. `bytes` is the size of one sample of a
 //          pixel; a full-screen pass has a fragment at every pixel.
-// Tests    tests/peeling/execution_test.cpp compares literal execution with the resolves;
+// Tests    tests/peeling/execution/execution_test.cpp compares literal execution with the resolves;
 //          tests/pipeline/region/region_test.cpp
 #pragma once
 #include "pipeline/frame/counters.h"

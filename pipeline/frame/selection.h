@@ -7,7 +7,7 @@
 //          primitive indices, and tallies nothing outside. `Instruments::check_selections` also visits every fragment
 //          and compares.
 // Source   pipeline/reference/execution.md 7.1.
-// Tests    tests/peeling/selection_test.cpp, execution_test.cpp
+// Tests    tests/peeling/execution/selection_test.cpp, execution_test.cpp
 #pragma once
 #include <array>
 #include <cstdint>

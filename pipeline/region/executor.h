@@ -8,7 +8,7 @@
 //          equal (Frame::blank_tiles_are_equal). Counters are those of literal execution. A frame that needs to be
 //          whole (Frame::needs_frame, or a lookup that leaves its region) runs literally, whatever was requested.
 // Source   pipeline/reference/execution.md 4, 5 and 8.
-// Tests    tests/peeling/execution_test.cpp
+// Tests    tests/peeling/execution/execution_test.cpp
 #pragma once
 #include <functional>
 #include <span>

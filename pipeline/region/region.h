@@ -7,7 +7,7 @@
 //          executor reads its results from RegionStatistics (region_statistics.h); optimized paths use RegionShortcuts
 //          (region_shortcuts.h).
 // Source   pipeline/reference/execution.md 1 and 4.
-// Tests    tests/pipeline/region/region_test.cpp, tests/peeling/execution_test.cpp
+// Tests    tests/pipeline/region/region_test.cpp, tests/peeling/execution/execution_test.cpp
 #pragma once
 #include <cstdint>
 #include <functional>

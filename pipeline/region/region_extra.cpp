@@ -5,7 +5,7 @@
 //          the next stage wherever the stage's rule guarantees that it is unchanged: alpha and depth tests that pass
 //          everything, a stencil that keeps, and blending ONE and ZERO of UNORM8 (write_colors). In float formats s + 0
 //          d differs from s for -0, infinity and NaN: there the sum is computed and discarded.
-// Tests    tests/peeling/execution_test.cpp compares with Effects::needed.
+// Tests    tests/peeling/execution/execution_test.cpp compares with Effects::needed.
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shared.h"
 #include "pipeline/region/region_stages.h"

@@ -2,7 +2,7 @@
 // frame's counterpart is executor.cpp.
 //
 // Source   pipeline/reference/execution.md 4; peeling/reference/keys-and-counts.md 3.
-// Tests    tests/pipeline/region/executor_test.cpp, tests/peeling/execution_test.cpp
+// Tests    tests/pipeline/region/executor_test.cpp, tests/peeling/execution/execution_test.cpp
 #pragma once
 #include "pipeline/frame/pass.h"
 

@@ -4,7 +4,7 @@
 //
 // Rule     Nothing here is a pass, and nothing is counted except by `count_passes`: the caller records what the passes
 //          that it replaces would have counted. An algorithm written as in its paper needs none of it.
-// Tests    tests/peeling/execution_test.cpp compares every optimized path with literal execution.
+// Tests    tests/peeling/execution/execution_test.cpp compares every optimized path with literal execution.
 #pragma once
 #include <optional>
 #include <span>

@@ -3,7 +3,7 @@
 //
 // Rule     Literal execution rasterizes in every pass; all other paths are tested against it.
 // Source   pipeline/reference/execution.md 5 and 7.
-// Tests    tests/peeling/execution_test.cpp, selection_test.cpp, tests/pipeline/region/needs_of_tiles_test.cpp
+// Tests    execution_test.cpp and selection_test.cpp of tests/peeling, tests/pipeline/region/needs_of_tiles_test.cpp
 #pragma once
 #include <memory>
 #include <optional>

@@ -4,7 +4,7 @@
 // Rule     begin_pass; for each batch start_batch, shade, load, the program, finish; open_cache before the first batch,
 //          close_cache after the last.
 // Source   pipeline/reference/fragment-stages.md 1.
-// Tests    tests/pipeline/region/region_test.cpp, tests/peeling/execution_test.cpp
+// Tests    tests/pipeline/region/region_test.cpp, tests/peeling/execution/execution_test.cpp
 #pragma once
 #include <functional>
 #include <memory>

@@ -2,7 +2,7 @@
 // For *_simd.cpp only: Highway compiles it once per instruction set, in each file that includes foreach_target.h.
 //
 // Rule     The colours of PlaneAttributes with ColorInterpolation::exact_plane.
-// Tests    tests/peeling/execution_test.cpp compares with literal execution.
+// Tests    tests/peeling/execution/execution_test.cpp compares with literal execution.
 #include "hwy/highway.h"
 #include "rasterizer/walk/row_walk-inl.h"
 

@@ -5,7 +5,7 @@
 // Rule     Each fragment of the triangles, in submission order, whose code is LESS than the opaque one adds (c a, a) to
 //          the sums and 1 to the count: halves like add_halves of lane_words.h, binary32 like blend_float.h with both
 //          factors 1. Colours are those of PlaneAttributes.
-// Tests    tests/peeling/execution_test.cpp compares with literal execution.
+// Tests    tests/peeling/execution/execution_test.cpp compares with literal execution.
 #pragma once
 #include <array>
 #include <cstdint>

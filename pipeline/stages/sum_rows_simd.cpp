@@ -1,5 +1,5 @@
 // pipeline/stages/sum_rows_simd.cpp - add_sum_rows of sum_rows.h for instruction sets that convert halves. How kernels
-// are written: rasterizer/reference/kernels.md. Tests: tests/peeling/execution_test.cpp
+// are written: rasterizer/reference/kernels.md. Tests: tests/peeling/execution/execution_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/stages/sum_rows_simd.cpp"
 #include "hwy/foreach_target.h"

@@ -9,7 +9,7 @@
 //          FloatEnvironment, and parallel_for passes it to its workers. Highway's own choice for the host program is
 //          neither changed nor read.
 // Source   Highway's run-time dispatch; pipeline/reference/fragment-stages.md 9.3 (MIN and MAX).
-// Tests    tests/rasterizer/base/simd_test.cpp, tests/peeling/simd_test.cpp
+// Tests    tests/rasterizer/base/simd_test.cpp, tests/peeling/execution/simd_test.cpp
 #pragma once
 #include <cstdint>
 #include <vector>

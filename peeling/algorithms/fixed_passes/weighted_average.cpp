@@ -7,7 +7,7 @@
 //            precision.
 // Outside literal execution and without textures, the rasterizer's rows are added directly into fp16 and binary32
 // targets (pipeline/stages/sum_rows.h; Region::draw_sums chooses). This needs AVX2 and half conversion;
-// tests/peeling/execution_test.cpp shows that the bits equal the pass's.
+// tests/peeling/execution/execution_test.cpp shows that the bits equal the pass's.
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/average.h"
 #include "peeling/programs/sums.h"

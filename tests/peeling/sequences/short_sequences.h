@@ -1,4 +1,4 @@
-// tests/peeling/short_sequences.h - every sequence of up to six fragments on five depths, one per pixel.
+// tests/peeling/sequences/short_sequences.h - every sequence of up to six fragments on five depths, one per pixel.
 #pragma once
 #include <array>
 
@@ -7,7 +7,6 @@
 
 namespace strata::testing {
 
-inline constexpr std::size_t short_sequence_count = 19531;  // 1 + 5 + 25 + ... + 5^6
 inline constexpr std::array<float, 5> short_depths{0.0f, 0.125f, 0.5f, 0.625f, 1.0f - 0x1p-10f};
 
 // Colours and alphas are random. Pixels after the last sequence are empty.

@@ -1,4 +1,4 @@
-// tests/peeling/execution_ways.h - ways of executing a frame, and their comparison with literal execution.
+// tests/peeling/execution/execution_ways.h - ways of executing a frame, and their comparison with literal execution.
 #pragma once
 #include <array>
 #include <catch2/catch.hpp>

@@ -2,9 +2,9 @@
 // ends, by erratum; and hybrid peeling, whose input is two sets.
 #include <catch2/catch.hpp>
 
-#include "tests/peeling/disordered_sequences.h"
 #include "tests/peeling/rendering.h"
-#include "tests/peeling/short_sequences.h"
+#include "tests/peeling/sequences/disordered_sequences.h"
+#include "tests/peeling/sequences/short_sequences.h"
 #include "tests/support/partial_order_model.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// tests/peeling/disordered_sequences.h - pixels with random fragments in every degree of disorder.
+// tests/peeling/sequences/disordered_sequences.h - pixels with random fragments in every degree of disorder.
 #pragma once
 #include <algorithm>
 

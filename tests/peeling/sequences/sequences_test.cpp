@@ -4,7 +4,7 @@
 
 #include "tests/peeling/expectations.h"
 #include "tests/peeling/rendering.h"
-#include "tests/peeling/short_sequences.h"
+#include "tests/peeling/sequences/short_sequences.h"
 #include "tests/support/composite_model.h"
 #include "tests/support/random_numbers.h"
 

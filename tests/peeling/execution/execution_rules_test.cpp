@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "peeling/registry.h"
-#include "tests/peeling/execution_ways.h"
+#include "tests/peeling/execution/execution_ways.h"
 #include "tests/support/random_numbers.h"
 
 namespace {
