@@ -8,11 +8,11 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "tests/tools/lab/probe/random_profile.h"
 #include "tools/lab/probe/kit/draw_item.h"
 #include "tools/lab/probe/kit/kit.h"
 #include "tools/lab/probe/kit/random_generator.h"
 #include "tools/lab/probe/search/infer.h"
-#include "tools/lab/probe/search/random_profile.h"
 
 namespace strata::probe {
 

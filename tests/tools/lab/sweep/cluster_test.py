@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Tests tools/cluster: every sweep in shards gives the bytes of one process, also after a shard was lost. usage: cluster_test.py REPOSITORY STRATA
+PROBE_ROUND_TRIPS
 
 Skips the runs of GNU parallel with a message if it is not installed, and then starts the shards itself.
 """
@@ -10,14 +11,15 @@ import subprocess
 import sys
 import tempfile
 
-ROOT, STRATA = pathlib.Path(sys.argv[1]).resolve(), str(pathlib.Path(sys.argv[2]).resolve())
+ROOT, STRATA, RANDOM_DEVICES = (pathlib.Path(path).resolve() for path in sys.argv[1:4])
 TOOLS = ROOT / "tools" / "cluster"
 SHARDS = 3
 SWEEPS = {
-    "invariance": ["planes:gap=64,count=4", "--size", "24x16", "--profile", "ideal", "--algorithm", "front_to_back", "--pair", "float32:exact", "--depth-format", "d24", "--remedy", "none,bias:2,bias:9"],
-    "cost": ["planes:count=2", "--size", "16x12", "--knob", "average_count,chain", "--repeat", "1"],
-    "hard-cases": ["frame-1x1", "reversed-range", "--profile", "geforce3,geforce8", "--depth-format", "d16,d24", "--algorithm", "dual,depth_units"],
-    "multisampling": ["planes:count=2", "--size", "8x6", "--algorithm", "dual,depth_units"],
+    "invariance": [STRATA, "invariance", "planes:gap=64,count=4", "--size", "24x16", "--profile", "ideal", "--algorithm", "front_to_back", "--pair", "float32:exact", "--depth-format", "d24", "--remedy", "none,bias:2,bias:9"],
+    "cost": [STRATA, "cost", "planes:count=2", "--size", "16x12", "--knob", "average_count,chain", "--repeat", "1"],
+    "hard-cases": [STRATA, "hard-cases", "frame-1x1", "reversed-range", "--profile", "geforce3,geforce8", "--depth-format", "d16,d24", "--algorithm", "dual,depth_units"],
+    "multisampling": [STRATA, "multisampling", "planes:count=2", "--size", "8x6", "--algorithm", "dual,depth_units"],
+    "random devices": [RANDOM_DEVICES, "--first", "7000", "--count", "2", "--unseen", "1100"],
 }
 faults = []
 
@@ -34,10 +36,10 @@ def run(*words, **more):
 def start(folder, words):
     """All shards, and their join, by GNU parallel if it is there."""
     if shutil.which("parallel"):
-        return run(TOOLS / "parallel.sh", folder, SHARDS, "--", *words, env={"STRATA": STRATA, "PATH": "/usr/bin:/bin", "HOME": str(folder)})
+        return run(TOOLS / "parallel.sh", folder, SHARDS, "--", *words, env={"PATH": "/usr/bin:/bin", "HOME": str(folder)})
     for k in range(1, SHARDS + 1):
         if not (folder / f"results.{k}of{SHARDS}.jsonl").exists():
-            run(STRATA, *words, "-o", folder, "--shard", f"{k}/{SHARDS}")
+            run(*words, "-o", folder, "--shard", f"{k}/{SHARDS}")
     return run(TOOLS / "join.py", folder, SHARDS)
 
 
@@ -52,9 +54,9 @@ def check_sweep(name, words, folder):
     whole, parts = folder / name / "whole", folder / name / "parts"
     for path in (whole, parts):
         path.mkdir(parents=True)
-    alone = run(STRATA, name, *words, "-o", whole)
+    alone = run(*words, "-o", whole)
     check(alone.returncode == 0, f"{name}: {alone.stderr}")
-    ended = start(parts, [name, *words])
+    ended = start(parts, words)
     check(ended.returncode == 0, f"{name}: {ended.stderr}")
     same(name, whole, parts)
     # A shard is lost, as if its process had been killed: join.py refuses, and a second start measures it alone again.
@@ -68,7 +70,7 @@ def check_sweep(name, words, folder):
     if log.exists():
         log.write_text("".join(line for line in log.read_text().splitlines(keepends=True) if "2/3" not in line))
     before = (parts / f"timings.1of{SHARDS}.jsonl").stat().st_mtime_ns
-    check(start(parts, [name, *words]).returncode == 0, f"{name}: the second start fails")
+    check(start(parts, words).returncode == 0, f"{name}: the second start fails")
     same(name, whole, parts)
     check((parts / f"timings.1of{SHARDS}.jsonl").stat().st_mtime_ns == before, f"{name}: a finished shard is measured again")
 
@@ -98,7 +100,7 @@ def check_slurm(folder):
     (folder / "bin" / "sbatch").chmod(0o755)
     words = ["planes:count=2", "--size", "8x6", "--algorithm", "dual,depth_units"]
     ended = run(TOOLS / "slurm.sh", folder / "a folder", SHARDS, "--cpus-per-task", "1", "--", "multisampling", *words,
-                env={"STRATA": STRATA, "PATH": f"{folder}/bin:/usr/bin:/bin"})
+                env={"STRATA": str(STRATA), "PATH": f"{folder}/bin:/usr/bin:/bin"})
     check(ended.returncode == 0 and ended.stdout == "7\n", f"slurm.sh: {ended}")
     run(STRATA, "multisampling", *words, "-o", folder / "whole")
     same("slurm.sh", folder / "whole", folder / "a folder")
