@@ -5,7 +5,7 @@
 //          densest part of the view, up to their limits. A rehearsal frame of 64x64 pixels gives the number of words
 //          and layers. A larger frame, more threads or more memory for fragments never give a smaller result.
 // Tests    tests/peeling/frame/memory_need_test.cpp, tests/tools/strata/render/max_memory_test.cpp: comparison with
-// measured peaks
+//          measured peaks
 #pragma once
 #include <cstdint>
 

@@ -2,10 +2,9 @@
 // interpolations: along s, then along t.
 //
 // Rule     Texels and weights are those of Mesa's drivers (texturing.md 2.5). Read as codes (code_lerps and
-// code_lerps_fused, if no axis
-//          mirrors and nothing is decoded): a, b become a + floor((w (b - a) + 128) / 256), times f32(1 / 255). Read as
-//          floats: a code's value is f32(code f32(1 / 255)), or that of srgb_mesa.h; a, b become f32(a + f32(w f32(b -
-//          a))), or fma(w, f32(b - a), a) under code_lerps_fused.
+//          code_lerps_fused, if no axis mirrors and nothing is decoded): a, b become a + floor((w (b - a) + 128) /
+//          256), times f32(1 / 255). Read as floats: a code's value is f32(code f32(1 / 255)), or that of srgb_mesa.h;
+//          a, b become f32(a + f32(w f32(b - a))), or fma(w, f32(b - a), a) under code_lerps_fused.
 // Source   pipeline/reference/texturing.md 2.5, 3.4 and 3.5.
 // Tests    tests/pipeline/textures/texel_lerps_test.cpp
 #pragma once

@@ -6,7 +6,7 @@
 //          `colorInteropID` (OpenEXR 3.4 and later) and `chromaticities` (those of BT.709 and its white in both
 //          spaces).
 // Tests    tests/scenes/files/exr_test.cpp, exr_foreign_test.cpp, deep_exr_test.cpp;
-// tests/tools/strata/program/system_faults_test.cpp
+//          tests/tools/strata/program/system_faults_test.cpp
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -1,3 +1,5 @@
+// tools/strata/recorded_command.cpp - parses the command that a picture records and replaces --from by it; names
+// options that differ from a candidate's (recorded_command.h).
 #include "tools/strata/recorded_command.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// tools/lab/bench/bench_jobs.cpp - runs each job until its time is known: warm-up frames, then Google Benchmark's
+// repetitions; counts one frame's fragments and passes (bench_jobs.h).
 #include "tools/lab/bench/bench_jobs.h"
 
 #include <benchmark/benchmark.h>

@@ -1,3 +1,5 @@
+// tools/lab/bench/bench_report.cpp - the times of jobs as a table and as JSON, and the ratio of two jobs if their runs
+// do not overlap (bench_report.h).
 #include "tools/lab/bench/bench_report.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/lab/cost/cost_plan.cpp - the choices that strata cost measures, each from the command's defaults: formats,
+// paths, algorithms, numbers of passes, execution, exact steps (cost_plan.h).
 #include "tools/lab/cost/cost_plan.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/lab/cost/cost_run.cpp - renders one choice, compares its picture with the exact one, counts its work, and times
+// it in turn with the defaults (cost_run.h).
 #include "tools/lab/cost/cost_run.h"
 
 #include <algorithm>

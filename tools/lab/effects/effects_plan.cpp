@@ -1,3 +1,5 @@
+// tools/lab/effects/effects_plan.cpp - decides for every effect whether a run simulates it, which state of the passes
+// needs it, and how many fragments it has; from counted passes and the census of tiles (effects_plan.h).
 #include "tools/lab/effects/effects_plan.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/lab/hard_cases/composited.cpp - finds fragments that a peel lost, repeated, mixed or misplaced: its traced
+// layers against the sorted visible fragments of each pixel (composited.h).
 #include "tools/lab/hard_cases/composited.h"
 
 #include <algorithm>

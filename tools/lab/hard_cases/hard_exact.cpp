@@ -1,3 +1,5 @@
+// tools/lab/hard_cases/hard_exact.cpp - projects a hard case's triangles in binary64 and sorts their depths at each
+// pixel; marks pixels that a small error may change (hard_exact.h).
 #include "tools/lab/hard_cases/hard_exact.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// tools/lab/hard_cases/hard_run.cpp - decides the verdict on one algorithm and hard case: stable, degrades, breaks or
+// failed, from audits, diagnostics and every other execution of the frame (hard_run.h).
 #include "tools/lab/hard_cases/hard_run.h"
 
 #include <fmt/format.h>

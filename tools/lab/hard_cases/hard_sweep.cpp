@@ -1,3 +1,5 @@
+// tools/lab/hard_cases/hard_sweep.cpp - the rows of strata hard-cases: numbers the combinations of case, device, format
+// and algorithm, and writes each as JSON and CSV (hard_sweep.h).
 #include "tools/lab/hard_cases/hard_sweep.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/lab/invariance/invariance_cell.cpp - opens a cell's scene, profile and view, checks that they can run, and
+// measures both depth paths (invariance_cell.h).
 #include "tools/lab/invariance/invariance_cell.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/lab/invariance/invariance_plan.cpp - expands a JSON plan, or the options of the command, into cells: every
+// combination of the values of its keys (invariance_plan.h).
 #include "tools/lab/invariance/invariance_plan.h"
 
 #include <fmt/format.h>

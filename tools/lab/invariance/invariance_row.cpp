@@ -1,3 +1,5 @@
+// tools/lab/invariance/invariance_row.cpp - writes a cell and its result as JSON and CSV: settings, errors, witnesses,
+// advice (invariance_row.h).
 #include "tools/lab/invariance/invariance_row.h"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 // tools/lab/sweep/sweep.h - measures the rows of a sweep, or those of one shard, and writes them to a folder.
 //
 // Rule     results.jsonl and results.csv have one row for each number. They depend on the command alone: not on
-// threads,
-//          shards or time. Times are only in timings.jsonl. The files are written when all rows are measured, so that
-//          an interrupted process leaves none; tools/cluster repeats the shards that did not end, and joins the others.
+//          threads, shards or time. Times are only in timings.jsonl. The files are written when all rows are measured,
+//          so that an interrupted process leaves none; tools/cluster repeats the shards that did not end, and joins
+//          the others.
 // Tests    tests/tools/lab/sweep/sweep_test.cpp, tests/tools/lab/sweep/cluster_test.py
 #pragma once
 #include <functional>

@@ -1,9 +1,8 @@
 // strata/picture.h - copies pictures between the library and a program's own memory, without changing a bit.
 //
 // Rule     A picture is one or more targets with their stored codes (tools/oracle/picture/picture.h). Memory is little
-// endian,
-//          with rows from the top unless the layout says otherwise, with or without padding after each row. Nothing is
-//          scaled, multiplied by alpha or decoded.
+//          endian, with rows from the top unless the layout says otherwise, with or without padding after each row.
+//          Nothing is scaled, multiplied by alpha or decoded.
 // Tests    tests/tools/library/memory_test.cpp
 #pragma once
 #include <cstddef>

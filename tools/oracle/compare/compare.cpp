@@ -1,3 +1,5 @@
+// tools/oracle/compare/compare.cpp - decides the kind of each differing pixel and whether the tolerances and budgets
+// accept it (compare.h).
 #include "tools/oracle/compare/compare.h"
 
 #include <algorithm>

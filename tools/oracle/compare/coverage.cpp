@@ -1,3 +1,5 @@
+// tools/oracle/compare/coverage.cpp - decides which pixels were drawn, from alpha or a background colour, and the kind
+// of difference between two such masks (coverage.h).
 #include "tools/oracle/compare/coverage.h"
 
 #include <fmt/format.h>

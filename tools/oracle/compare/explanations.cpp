@@ -1,3 +1,5 @@
+// tools/oracle/compare/explanations.cpp - changes the reference in every known way (flipped, moved, encoded, multiplied
+// by alpha ...) and keeps what equals the candidate everywhere (explanations.h).
 #include "tools/oracle/compare/explanations.h"
 
 #include <algorithm>

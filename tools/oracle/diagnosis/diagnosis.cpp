@@ -1,3 +1,5 @@
+// tools/oracle/diagnosis/diagnosis.cpp - renders the scene with each mistake, compares the pictures and passes with the
+// candidate's, and decides which mistake is named (diagnosis.h).
 #include "tools/oracle/diagnosis/diagnosis.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// tools/oracle/judge/forgotten.cpp - tries the options that a user may have forgotten (camera, background, samples) and
+// decides whether one makes the picture right (forgotten.h).
 #include "tools/oracle/judge/forgotten.h"
 
 #include <fmt/format.h>

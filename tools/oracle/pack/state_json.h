@@ -1,8 +1,8 @@
 // tools/oracle/pack/state_json.h - reads and writes the object "state" of a pack, which contains the options.
 //
 // Rule     tools/oracle/pack/PACK.md. Options that do not change bits (threads, tiles, execution) are omitted; those
-// that a
-//          pack cannot represent (clip planes, a second list, a window origin) throw InputError when it is written.
+//          that a pack cannot represent (clip planes, a second list, a window origin) throw InputError when it is
+//          written.
 // Tests    tests/tools/oracle/pack/golden_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>

@@ -2,7 +2,8 @@
 // channels and of tiles.
 //
 // Rule     tools/oracle/pack/PACK.md. A target that has not changed since it was last written refers to its earlier
-// file. Tests    tests/tools/oracle/pack/golden_test.cpp
+//          file.
+// Tests    tests/tools/oracle/pack/golden_test.cpp
 #pragma once
 #include <map>
 #include <nlohmann/json.hpp>

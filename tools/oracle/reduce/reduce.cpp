@@ -1,3 +1,5 @@
+// tools/oracle/reduce/reduce.cpp - removes triangles, rows, columns and state while the candidate's picture still
+// differs in the same kind (reduce.h).
 #include "tools/oracle/reduce/reduce.h"
 
 #include <fmt/format.h>

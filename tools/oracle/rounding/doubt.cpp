@@ -1,3 +1,5 @@
+// tools/oracle/rounding/doubt.cpp - decides whether differences within a hypothesis' rounding have a direction, or
+// follow layers, alpha or transmittance: reasons to doubt (doubt.h).
 #include "tools/oracle/rounding/doubt.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/oracle/rounding/hypothesis.cpp - lists the hypotheses that are tried: combinations of formats, orders and
+// roundings, with their words (hypothesis.h).
 #include "tools/oracle/rounding/hypothesis.h"
 
 #include <fmt/format.h>

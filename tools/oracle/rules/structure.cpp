@@ -1,3 +1,5 @@
+// tools/oracle/rules/structure.cpp - lists the layers of a pixel under a rule about depth, ties and order: what a right
+// port, or one with a mistake, composites (structure.h).
 #include "tools/oracle/rules/structure.h"
 
 #include <algorithm>

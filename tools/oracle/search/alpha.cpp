@@ -1,3 +1,5 @@
+// tools/oracle/search/alpha.cpp - decides whether a picture's alpha is right, a known alternative, or wrong, from the
+// stacks that its colours have (alpha.h).
 #include "tools/oracle/search/alpha.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/oracle/search/edits.cpp - finds the mistake that gives the value of each wrong pixel: explanations first, then
+// leads; for a single pixel every rule (edits.h).
 #include "tools/oracle/search/edits.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// tools/oracle/suite/mistake_table.cpp - diagnoses every mistake on every scene of the suite, finds mistakes that no
+// scene tells apart, and writes the table as a page (mistake_table.h).
 #include "tools/oracle/suite/mistake_table.h"
 
 #include <fmt/format.h>

@@ -2,8 +2,7 @@
 // each of them reveals.
 //
 // Rule     DIR/NAME is the pack of scene NAME, DIR/suite.json the list (tools/oracle/pack/PACK.md, "A suite"). All
-// files are
-//          derived from the scenes; a check derives them again.
+//          files are derived from the scenes; a check derives them again.
 // Tests    tests/tools/strata/diagnose/suite_command_test.cpp
 #pragma once
 #include <span>

@@ -1,3 +1,5 @@
+// tools/oracle/verdict/equal_picture.cpp - finds the algorithm whose own picture the candidate equals: the stated one
+// first, then the exact ones, in the formats of the file (equal_picture.h).
 #include "tools/oracle/verdict/equal_picture.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// tools/oracle/verdict/picture_verdict.cpp - decides the verdict on a picture: equal pictures, then structure and
+// rounding, then other profiles and origins, then mistakes (picture_verdict.h).
 #include "tools/oracle/verdict/picture_verdict.h"
 
 #include <fmt/format.h>

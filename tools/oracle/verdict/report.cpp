@@ -1,3 +1,5 @@
+// tools/oracle/verdict/report.cpp - the sentences of a verdict: the first line from its state, then what was excused,
+// wrong pixels, and leads (report.h).
 #include "tools/oracle/verdict/report.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/oracle/verdict/right_picture.cpp - decides whether a picture that a hypothesis reaches everywhere is right:
+// tries mistakes that explain it in fewer bits, rounding, and alpha (right_picture.h).
 #include "tools/oracle/verdict/right_picture.h"
 
 #include <algorithm>

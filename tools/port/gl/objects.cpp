@@ -1,3 +1,5 @@
+// tools/port/gl/objects.cpp - creates, attaches and reads OpenGL textures, framebuffers, programs and queries, also
+// multisampled ones (objects.h).
 #include "tools/port/gl/objects.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/port/gl/pack.cpp - reads a golden pack's scene and state, refuses state that the port does not draw, and writes
+// a candidate (pack.h).
 #include "tools/port/gl/pack.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/strata/compare/compare_scene.cpp - compares a candidate with a scene: opens the scene at the picture's size,
+// asks for the verdict, and writes pages and maps (compare_scene.h).
 #include "tools/strata/compare/compare_scene.h"
 
 #include <fmt/format.h>

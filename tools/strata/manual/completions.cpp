@@ -1,3 +1,5 @@
+// tools/strata/manual/completions.cpp - writes the bash completion of all commands, options and values, from CLI11's
+// description of them.
 #include <fmt/format.h>
 
 #include <algorithm>

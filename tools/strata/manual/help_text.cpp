@@ -1,3 +1,4 @@
+// tools/strata/manual/help_text.cpp - the text of --help: options in groups, the common ones first.
 #include <fmt/format.h>
 
 #include <algorithm>

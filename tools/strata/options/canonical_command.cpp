@@ -1,3 +1,5 @@
+// tools/strata/options/canonical_command.cpp - the command that renders a picture again, with every option whose value
+// is not the default, in a fixed order; stored in picture files.
 #include <fmt/format.h>
 
 #include <filesystem>

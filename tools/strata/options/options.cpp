@@ -1,3 +1,5 @@
+// tools/strata/options/options.cpp - declares the options of scene, view, algorithm and sampling, and completes what
+// the user left out (options.h).
 #include "tools/strata/options/options.h"
 
 #include <algorithm>

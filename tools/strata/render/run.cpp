@@ -1,3 +1,5 @@
+// tools/strata/render/run.cpp - renders with each algorithm: opens scene, profile and view, warns of what would
+// mislead, writes files, and decides the exit status (run.h).
 #include "tools/strata/render/run.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/strata/report/report_data.cpp - collects a report's JSON and blobs: fragments, pictures, audits and histories
+// of each algorithm, within the limits of a page (report_data.h).
 #include "tools/strata/report/report_data.h"
 
 #include <fmt/format.h>

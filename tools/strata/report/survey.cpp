@@ -1,3 +1,5 @@
+// tools/strata/report/survey.cpp - watches one run and notes for each fragment the pass that took it, and for each
+// pixel the test that rejected most (survey.h).
 #include "tools/strata/report/survey.h"
 
 #include <algorithm>

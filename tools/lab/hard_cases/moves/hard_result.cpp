@@ -1,3 +1,5 @@
+// tools/lab/hard_cases/moves/hard_result.cpp - differences of two results: fragments gained, lost and reordered, layer
+// by layer at each pixel (hard_result.h).
 #include "tools/lab/hard_cases/moves/hard_result.h"
 
 #include <algorithm>

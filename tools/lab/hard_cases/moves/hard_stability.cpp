@@ -1,3 +1,5 @@
+// tools/lab/hard_cases/moves/hard_stability.cpp - decides whether an algorithm is stable under moves: counts changed
+// layers and order within the move, within the device's steps, and beyond (hard_stability.h).
 #include "tools/lab/hard_cases/moves/hard_stability.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/lab/hardware_check/drawing/compare.cpp - compares a drawn picture with a capture pixel by pixel, outside hidden
+// rectangles and printed labels (compare.h).
 #include "tools/lab/hardware_check/drawing/compare.h"
 
 #include <algorithm>

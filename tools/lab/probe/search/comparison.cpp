@@ -1,3 +1,5 @@
+// tools/lab/probe/search/comparison.cpp - counts the pixels of a scene at which a profile's coverage, depth and colour
+// equal the device's answer (comparison.h).
 #include "tools/lab/probe/search/comparison.h"
 
 #include <algorithm>

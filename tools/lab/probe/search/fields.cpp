@@ -1,3 +1,5 @@
+// tools/lab/probe/search/fields.cpp - decides which fields of a profile have an effect beside the others, which values
+// are tried, and in which groups (fields.h).
 #include "tools/lab/probe/search/fields.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// tools/lab/probe/search/infer.cpp - decides for each field whether the device's answers determine it: inferred, open,
+// broken or idle, by the scenes that its other values change (infer.h).
 #include "tools/lab/probe/search/infer.h"
 
 #include <fmt/format.h>

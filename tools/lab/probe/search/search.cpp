@@ -1,3 +1,5 @@
+// tools/lab/probe/search/search.cpp - searches for the best profile group by group: all combinations on the first
+// scenes, then single changes on all scenes, then repairs (search.h).
 #include "tools/lab/probe/search/search.h"
 
 #include <algorithm>
