@@ -271,7 +271,7 @@ int diagnose(const CLI::App& app, const DiagnoseOptions& options) {
     if (options.mistakes.list) return show_mistakes(options.mistakes, options.json);
     for (const char* name : {"SCENE", "CANDIDATE"})
         if (app.count(name) == 0) throw CLI::RequiredError(name);
-    for (const char* name : {"--suite", "--table", "--output"})
+    for (const char* name : {"--suite", "--output"})
         if (app.count(name) > 0) throw CLI::ValidationError(std::string(name) + " goes with --list alone");
     const std::vector<std::string> packs = packs_in(options.run.scene);
     check_outputs({{"--report", options.report, {".html"}}});

@@ -7,7 +7,7 @@
 namespace strata::tools {
 
 struct MistakesOptions {
-    bool list = false, suite = false, table = false;
+    bool list = false, suite = false;
     std::string output;  // empty: standard output
 };
 

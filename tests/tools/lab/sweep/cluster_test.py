@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Tests tools/cluster: every sweep in shards gives the bytes of one process, also after a shard was lost. usage: cluster_test.py REPOSITORY STRATA
-PROBE_ROUND_TRIPS
+PROBE_ROUND_TRIPS SUITE_MISTAKES
 
 Skips the runs of GNU parallel with a message if it is not installed, and then starts the shards itself.
 """
@@ -11,7 +11,7 @@ import subprocess
 import sys
 import tempfile
 
-ROOT, STRATA, RANDOM_DEVICES = (pathlib.Path(path).resolve() for path in sys.argv[1:4])
+ROOT, STRATA, RANDOM_DEVICES, SUITE_MISTAKES = (pathlib.Path(path).resolve() for path in sys.argv[1:5])
 TOOLS = ROOT / "tools" / "cluster"
 SHARDS = 3
 SWEEPS = {
@@ -20,6 +20,7 @@ SWEEPS = {
     "hard-cases": [STRATA, "hard-cases", "frame-1x1", "reversed-range", "--profile", "geforce3,geforce8", "--depth-format", "d16,d24", "--algorithm", "dual,depth_units"],
     "multisampling": [STRATA, "multisampling", "planes:count=2", "--size", "8x6", "--algorithm", "dual,depth_units"],
     "random devices": [RANDOM_DEVICES, "--first", "7000", "--count", "2", "--unseen", "1100"],
+    "suite": [SUITE_MISTAKES, "half.front_to_back"],
 }
 faults = []
 
