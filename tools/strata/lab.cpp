@@ -1,3 +1,4 @@
+// tools/strata/lab.cpp - finds strata-lab beside the program and starts it for the experiments (lab.h).
 #include "tools/strata/lab.h"
 
 #include <unistd.h>

@@ -1,3 +1,5 @@
+// tools/strata/messages.cpp - decides which messages are shown, by -q and -v, and whether they have colours, by
+// --color, NO_COLOR and the terminal (messages.h).
 #include "tools/strata/messages.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/lab/hardware_check/hardware_report.cpp - draws each capture's picture, decides its outcome, and writes tables,
+// JSON and difference images (hardware_report.h).
 #include "tools/lab/hardware_check/hardware_report.h"
 
 #include <fmt/format.h>

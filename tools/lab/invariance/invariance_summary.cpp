@@ -1,3 +1,5 @@
+// tools/lab/invariance/invariance_summary.cpp - the table of a sweep's results: columns that differ between cells, and
+// a sentence with the values that all cells share (invariance_summary.h).
 #include "tools/lab/invariance/invariance_summary.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/oracle/compare/layers.cpp - decides whether layers of a pixel are missing, doubled, merged or reordered, from
+// colours and depths (layers.h).
 #include "tools/oracle/compare/layers.h"
 
 #include <algorithm>

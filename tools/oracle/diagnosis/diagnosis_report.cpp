@@ -1,3 +1,5 @@
+// tools/oracle/diagnosis/diagnosis_report.cpp - the sentences of a diagnosis: the first line by its conclusion, then
+// other explanations and hints (diagnosis_report.h).
 #include "tools/oracle/diagnosis/diagnosis_report.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/oracle/diagnosis/scenes_diagnosis.cpp - ranks the mistakes that explain a port's pictures of all scenes
+// together (scenes_diagnosis.h).
 #include "tools/oracle/diagnosis/scenes_diagnosis.h"
 
 #include <algorithm>

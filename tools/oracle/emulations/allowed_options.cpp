@@ -1,3 +1,5 @@
+// tools/oracle/emulations/allowed_options.cpp - the options that are tried before mistakes: blend roundings, formats,
+// sample positions, profiles, limits of passes, epsilons (allowed_options.h).
 #include "tools/oracle/emulations/allowed_options.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/oracle/emulations/altered_run.cpp - how a mistake changes a run: names of targets, vertices, programs, and
+// combinations of two mistakes (altered_run.h).
 #include "tools/oracle/emulations/altered_run.h"
 
 #include <algorithm>

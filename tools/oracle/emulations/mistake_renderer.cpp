@@ -1,3 +1,5 @@
+// tools/oracle/emulations/mistake_renderer.cpp - renders the scene rightly and with each mistake, and finds how many
+// passes the right run takes (mistake_renderer.h).
 #include "tools/oracle/emulations/mistake_renderer.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// tools/oracle/emulations/pass_evidence.cpp - counts targets that agree with a candidate's after each pass, and
+// decides whether a mistake explains where they begin to differ (pass_evidence.h).
 #include "tools/oracle/emulations/pass_evidence.h"
 
 #include <fmt/format.h>

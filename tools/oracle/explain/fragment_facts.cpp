@@ -1,3 +1,5 @@
+// tools/oracle/explain/fragment_facts.cpp - computes a fragment's mesh, barycentric coordinates, and depth by every
+// path from its triangle (fragment_facts.h).
 #include "tools/oracle/explain/fragment_facts.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// tools/oracle/explain/history.cpp - watches every stage of a run at chosen pixels and records which fragment each
+// pass drew, killed or took (history.h).
 #include "tools/oracle/explain/history.h"
 
 #include <fmt/format.h>

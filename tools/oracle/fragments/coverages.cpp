@@ -1,3 +1,5 @@
+// tools/oracle/fragments/coverages.cpp - draws the scene with other snapping and tie rules and keeps, for each pixel,
+// the lists that differ (coverages.h).
 #include "tools/oracle/fragments/coverages.h"
 
 #include <algorithm>

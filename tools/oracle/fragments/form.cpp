@@ -1,3 +1,5 @@
+// tools/oracle/fragments/form.cpp - decides whether a picture's colours are straight or premultiplied: the form with
+// fewer wrong pixels of a sample (form.h).
 #include "tools/oracle/fragments/form.h"
 
 #include <algorithm>

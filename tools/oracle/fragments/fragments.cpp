@@ -1,3 +1,5 @@
+// tools/oracle/fragments/fragments.cpp - draws the scene tile by tile, keeps every visible fragment in depth order,
+// and answers for one pixel at a time (fragments.h).
 #include "tools/oracle/fragments/fragments.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// tools/oracle/fragments/near_depths.cpp - lists a pixel's fragments with close depths exchanged or merged, as another
+// right port may have them (near_depths.h).
 #include "tools/oracle/fragments/near_depths.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// tools/oracle/fragments/sample.cpp - fills a sample: which pixels are taken, by their positions alone, and the
+// fragments and colour of each (sample.h).
 #include "tools/oracle/fragments/sample.h"
 
 #include <algorithm>

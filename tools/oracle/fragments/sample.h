@@ -1,6 +1,6 @@
 // tools/oracle/fragments/sample.h - a sample of pixels, each with its fragments and the candidate's colour.
 //
-// Rule     The selection depends only on the pixels' positions, so it is the same on every machine.
+// Rule     The selection depends only on the pixels' positions, so it is the same on every computer.
 #pragma once
 #include <array>
 #include <deque>

@@ -1,4 +1,4 @@
-// tools/oracle/fragments/work.h - counts the steps of a search, so that it stops at the same point on every machine.
+// tools/oracle/fragments/work.h - counts the steps of a search, so that it stops at the same point on every computer.
 //
 // Rule     A sequential part of a search counts its own steps and adds them to the total when it ends. The limit is
 //          only checked between such parts, or between batches of a fixed size, when the total does not depend on

@@ -1,3 +1,5 @@
+// tools/oracle/judge/diagnose_picture.cpp - decides what made a picture: first the emulated mistakes, then the layers'
+// verdict where no emulation gives it (diagnose_picture.h).
 #include "tools/oracle/judge/diagnose_picture.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/oracle/judge/samples_verdict.cpp - judges a resolved picture, and if it is wrong under the given sampling,
+// tries other shadings and sample positions (samples_verdict.h).
 #include "tools/oracle/judge/samples_verdict.h"
 
 #include <limits>

@@ -1,3 +1,5 @@
+// tools/oracle/pack/compare_packs.cpp - compares a candidate with a pack: picture, layers, and pass by pass until the
+// first target that differs (compare_packs.h).
 #include "tools/oracle/pack/compare_packs.h"
 
 #include <fmt/format.h>

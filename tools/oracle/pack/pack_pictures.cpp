@@ -1,3 +1,5 @@
+// tools/oracle/pack/pack_pictures.cpp - reads the targets that a manifest lists, checks their shapes, and turns them
+// into pictures to compare (pack_pictures.h).
 #include "tools/oracle/pack/pack_pictures.h"
 
 #include <fmt/format.h>

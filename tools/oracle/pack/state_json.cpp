@@ -1,3 +1,5 @@
+// tools/oracle/pack/state_json.cpp - lists every option of a pack's state with its key, for reading and writing
+// (state_json.h).
 #include "tools/oracle/pack/state_json.h"
 
 #include <algorithm>

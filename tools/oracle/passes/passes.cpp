@@ -1,3 +1,5 @@
+// tools/oracle/passes/passes.cpp - collects each pass of all samples in step and reports it with the content of all
+// targets (passes.h).
 #include "tools/oracle/passes/passes.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/oracle/picture/other_size.cpp - decides how a picture of another size relates to the reference, by the pixels
+// that agree under each relation (other_size.h).
 #include "tools/oracle/picture/other_size.h"
 
 #include <fmt/format.h>

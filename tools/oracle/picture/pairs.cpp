@@ -1,3 +1,5 @@
+// tools/oracle/picture/pairs.cpp - finds each target's partner and converts one of the two where channels, grey or
+// alpha forms differ (pairs.h).
 #include "tools/oracle/picture/pairs.h"
 
 #include <fmt/format.h>

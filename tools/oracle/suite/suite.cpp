@@ -1,3 +1,5 @@
+// tools/oracle/suite/suite.cpp - the scenes of the suite, each with its purpose, its options and its command
+// (suite.h).
 #include "tools/oracle/suite/suite.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/oracle/suite/suite_packs.cpp - writes a pack for each scene of the suite and suite.json, and derives both
+// again for a check (suite_packs.h).
 #include "tools/oracle/suite/suite_packs.h"
 
 #include <filesystem>

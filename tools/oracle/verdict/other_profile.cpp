@@ -1,3 +1,5 @@
+// tools/oracle/verdict/other_profile.cpp - judges a wrong picture again with the rules of other profiles and the other
+// origin (other_profile.h).
 #include "tools/oracle/verdict/other_profile.h"
 
 #include <mutex>

@@ -1,3 +1,5 @@
+// tools/oracle/verdict/other_rules.cpp - lists the rules that a right port may follow without saying so, each with its
+// words for the verdict (other_rules.h).
 #include "tools/oracle/verdict/other_rules.h"
 
 #include <fmt/format.h>

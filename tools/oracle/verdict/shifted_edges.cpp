@@ -1,3 +1,5 @@
+// tools/oracle/verdict/shifted_edges.cpp - lets triangles that enter or leave a wrong pixel vote for a direction, and
+// decides whether one has nearly all votes (shifted_edges.h).
 #include "tools/oracle/verdict/shifted_edges.h"
 
 #include <algorithm>

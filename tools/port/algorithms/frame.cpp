@@ -1,3 +1,5 @@
+// tools/port/algorithms/frame.cpp - draws the opaque scene, blends the finished front over it, and reads the picture
+// back (frame.h).
 #include "tools/port/algorithms/frame.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/port/beside/reference.cpp - transforms and renders the scene by Strata for comparison with the OpenGL program
+// (reference.h).
 #include "tools/port/beside/reference.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// tools/port/gl/gpu_scene.cpp - puts a scene's vertices into buffers and draws its runs of triangles with culling by
+// material (gpu_scene.h).
 #include "tools/port/gl/gpu_scene.h"
 
 #include <fmt/format.h>

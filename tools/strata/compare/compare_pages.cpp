@@ -1,3 +1,5 @@
+// tools/strata/compare/compare_pages.cpp - builds the page of compare --report and paints the verdict's first line
+// (compare_pages.h).
 #include "tools/strata/compare/compare_pages.h"
 
 #include <algorithm>

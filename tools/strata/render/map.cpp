@@ -1,3 +1,5 @@
+// tools/strata/render/map.cpp - computes a number per pixel (layers, ties, error) and draws it from black to white
+// (map.h).
 #include "tools/strata/render/map.h"
 
 #include <fmt/format.h>

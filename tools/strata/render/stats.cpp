@@ -1,3 +1,5 @@
+// tools/strata/render/stats.cpp - writes a run's outcome, counters, audit and times as a row of JSON and of the table
+// (stats.h).
 #include "tools/strata/render/stats.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// tools/lab/hard_cases/moves/hard_flicker.cpp - renders a case along a camera path and counts pixels that change and
+// change back while the exact answer stays (hard_flicker.h).
 #include "tools/lab/hard_cases/moves/hard_flicker.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// tools/lab/hard_cases/moves/hard_moves.cpp - moves vertices by a seed, permutes triangles, and places the camera on a
+// path (hard_moves.h).
 #include "tools/lab/hard_cases/moves/hard_moves.h"
 
 #include <bit>

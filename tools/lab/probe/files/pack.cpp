@@ -1,3 +1,5 @@
+// tools/lab/probe/files/pack.cpp - reads and checks a device's answers, an image per scene and orientation, and writes
+// those of a profile (pack.h).
 #include "tools/lab/probe/files/pack.h"
 
 #include <fmt/format.h>

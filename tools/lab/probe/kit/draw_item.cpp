@@ -1,3 +1,5 @@
+// tools/lab/probe/kit/draw_item.cpp - draws a scene of the kit by the pipeline's stages with a profile's rules; a
+// device without a needed format or state refuses it (draw_item.h).
 #include "tools/lab/probe/kit/draw_item.h"
 
 #include <algorithm>

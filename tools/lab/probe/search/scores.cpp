@@ -1,3 +1,5 @@
+// tools/lab/probe/search/scores.cpp - counts the pixels that a profile explains, and draws a scene again only if a
+// field that can change it changed (scores.h).
 #include "tools/lab/probe/search/scores.h"
 
 #include <algorithm>
