@@ -279,7 +279,7 @@ std::vector<History> empty_histories(const RunInput& input, const peeling::Algor
 void check_pixels(const rasterizer::Rect& pixels, int width, int height) {
     if (pixels.x0 < 0 || pixels.y0 < 0 || pixels.x1 > width || pixels.y1 > height || pixels.x0 >= pixels.x1 ||
         pixels.y0 >= pixels.y1)
-        throw InputError("explain", "pixel", fmt::format("one from 0,0 to {},{}", width - 1, height - 1),
+        throw InputError("explain", "pixel", fmt::format("a pixel from 0,0 to {},{}", width - 1, height - 1),
                          fmt::format("{},{}", pixels.x0, pixels.y0));
 }
 

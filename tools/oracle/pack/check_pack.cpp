@@ -56,7 +56,7 @@ std::string place_in_file(const std::string& bytes, const std::string& name, std
 
 std::string difference(const std::string& found, const std::string& expected, const std::string& name) {
     if (found.size() != expected.size())
-        return fmt::format("size: expected {} bytes, found {}", expected.size(), found.size());
+        return fmt::format("size: expected {} bytes, found {} bytes", expected.size(), found.size());
     const auto at = std::mismatch(found.begin(), found.end(), expected.begin());
     const auto position = static_cast<std::size_t>(at.first - found.begin());
     return fmt::format("{}: expected {}, found {}", place_in_file(expected, name, position),
@@ -67,14 +67,14 @@ std::string difference(const std::string& found, const std::string& expected, co
 std::string manifest_difference(const std::string& found, const std::string& expected) {
     const json patch = json::diff(json::parse(found), json::parse(expected));
     if (patch.empty()) return difference(found, expected, "manifest.json");
-    return fmt::format("{}: differs from the pack made again", patch[0]["path"].get<std::string>());
+    return fmt::format("{}: differs from the value that strata derives again", patch[0]["path"].get<std::string>());
 }
 
 std::uint64_t sum_at(const ManifestValue& listed, std::size_t i) {
     std::uint64_t value = 0;
     const json sums = listed.value().value("sums", json::array());
     if (!sums.is_array() || i >= sums.size() || !sums[i].is_string())
-        listed.fail("sums", "two sums of bytes, in strings");
+        listed.fail("sums", "two strings of digits, the sums of the file's bytes");
     const auto& digits = sums[i].get_ref<const std::string&>();
     std::from_chars(digits.data(), digits.data() + digits.size(), value);
     return value;
@@ -87,7 +87,7 @@ std::string listed_difference(const std::string& bytes, const std::string& name,
     const std::string_view hashed = array ? std::string_view{array->bytes} : std::string_view{bytes};
     if (scenes::digest_of_bytes(hashed) == listed.text("digest") && scenes::sums_of(bytes) == sums) return "";
     const auto changed = scenes::changed_byte(bytes, sums);
-    if (!changed) return "its bytes are not those of the digest, at more than one place";
+    if (!changed) return "the file's digest differs from the manifest's: several bytes have changed";
     return fmt::format("{}: expected {}, found {}", place_in_file(bytes, name, changed->position), changed->was,
                        changed->is);
 }

@@ -22,8 +22,11 @@ constexpr std::string_view top = "expected/", ending = ".exr";
 pipeline::Image image_of(const std::string& folder, const json& target) {
     const std::string file = folder + "/" + target.at("file").get<std::string>();
     const pipeline::Format format = format_named(target.at("format").get<std::string>(), file);
-    auto image = as_image(scenes::read_npy(file), format, target.at("samples").get<int>());
-    if (!image) throw InputError(file, "shape", "that of its target", "another");
+    const scenes::NumberArray array = scenes::read_npy(file);
+    auto image = as_image(array, format, target.at("samples").get<int>());
+    if (!image)
+        throw InputError(file, "shape", fmt::format("the shape of a {} target", pipeline::info(format).name),
+                         fmt::format("({})", fmt::join(array.shape, ", ")));
     return *std::move(image);
 }
 

@@ -22,7 +22,7 @@ namespace strata::oracle {
 pipeline::Format format_named(const std::string& name, const std::string& file) {
     for (const pipeline::Format format : enum_values<pipeline::Format>)
         if (pipeline::info(format).name == name) return format;
-    throw InputError(file, "format", "a target's format", name);
+    throw InputError(file, "format", "the name of a target's format such as rgba8 or d24", "'" + name + "'");
 }
 
 namespace {
@@ -49,7 +49,9 @@ void add_samples(const NumberArray& array, const ManifestValue& described, const
         !fits(shape[0]) || !fits(shape[1]) || (sides == 4 && samples == 1 && shape[2] != 1) ||
         (sides > 2 && (shape.back() < 1 || shape.back() > 4)))
         throw InputError(file, "shape",
-                         samples > 1 ? "(rows, columns, samples, channels)" : "(rows, columns, channels)", "another");
+                         samples > 1 ? fmt::format("(rows, columns, {}, channels)", samples)
+                                     : std::string{"(rows, columns) or (rows, columns, channels)"},
+                         fmt::format("({})", fmt::join(shape, ", ")));
     target.width = static_cast<int>(shape[1]);
     target.height = static_cast<int>(shape[0]);
     target.channels = sides > 2 ? static_cast<int>(shape.back()) : 1;
@@ -161,7 +163,8 @@ std::vector<PackPictures> candidate_pictures(const std::string& pack, const std:
     };
     std::vector<PackPictures> all = all_of(scenes::pack_folder(pack), Reader{find, false});
     if (all.empty())
-        throw InputError(candidate, "folder", "ALGORITHM/picture.npy or another file of the pack", "none of them");
+        throw InputError(candidate, "folder", "ALGORITHM/picture.npy or another file that the pack lists",
+                         "none of the pack's files");
     return all;
 }
 

@@ -121,12 +121,13 @@ void sampling(Io& io, std::optional<SampledState>& given) {
 void take_all_samples(const SampledState& given, const std::string& file, const DeviceProfile& profile,
                       PackState& state) {
     if (state.options.raster.sample)
-        throw InputError(file, sampling_field, "'number', because the state has the field 'sample'", "'all'");
+        throw InputError(file, sampling_field, "the field 'number', because the state has the field 'sample'",
+                         "the field 'all'");
     const auto points = sample_points(profile.sample_positions, static_cast<int>(given.points.size()));
     if (points.empty() || !std::ranges::equal(points, given.points))
         throw InputError(file, std::string{sampling_field} + "/samples",
-                         "the 2, 4 or 8 points of profile " + profile.name,
-                         std::to_string(given.points.size()) + " others");
+                         "the 2, 4 or 8 sample positions of profile " + profile.name,
+                         std::to_string(given.points.size()) + " other positions");
     state.sampling = {.samples = static_cast<int>(points.size()),
                       .resolve = given.all->resolve,
                       .loads = given.all->loads,
@@ -138,16 +139,17 @@ void take_sampled_state(const SampledState& given, const std::string& file, cons
                         PackState& state) {
     rasterizer::RasterState& raster = state.options.raster;
     if (given.points.size() > raster.samples.size())
-        throw InputError(file, std::string{sampling_field} + "/samples", "at most 8 points",
+        throw InputError(file, std::string{sampling_field} + "/samples", "at most 8 sample positions",
                          std::to_string(given.points.size()));
     if (given.number.has_value() == given.all.has_value())
-        throw InputError(file, sampling_field, "either 'number', of one sample, or 'all'",
+        throw InputError(file, sampling_field, "either the field 'number' (of one sample) or the field 'all'",
                          given.all ? "both" : "neither");
     raster.interpolation = given.interpolation;
     raster.sample_coverage = given.coverage;
     if (given.all) return take_all_samples(given, file, profile, state);
     if (!raster.sample)
-        throw InputError(file, sampling_field, "a frame of one sample", "a state without the field 'sample'");
+        throw InputError(file, sampling_field, "the field 'sample' in the state, because 'number' names one sample",
+                         "no such field");
     raster.sample_count = static_cast<int>(given.points.size());
     std::ranges::copy(given.points, raster.samples.begin());
     raster.sample_number = *given.number;
@@ -219,7 +221,9 @@ void fields(Io& io, O& o) {
     io.choice("front_face", raster.front_face);
 }
 
-void refuse(const char* field) { throw InputError("pack", field, "its default: a pack cannot hold it", "a choice"); }
+void refuse(const char* field) {
+    throw InputError("pack", field, "the default value, because a pack does not store this option", "another value");
+}
 
 }  // namespace
 

@@ -146,13 +146,14 @@ Pairing pair_targets(const Picture& reference, const Picture& candidate, ColorCh
             continue;
         }
         if (other->width != target.width || other->height != target.height)
-            throw InputError(candidate.file, "size", fmt::format("{}x{} as the reference", target.width, target.height),
+            throw InputError(candidate.file, "size",
+                             fmt::format("{}x{}, the reference's size", target.width, target.height),
                              size_in_words(target, *other));
         ComparedColor ours{&target, "the reference"}, theirs{other, "the candidate"};
         Matcher{found, place(target)}.match(ours, theirs, channels);
         if (ours.target->channels != theirs.target->channels)
             throw InputError(candidate.file, place(target),
-                             fmt::format("{} channels as the reference has", target.channels),
+                             fmt::format("{} channels, as in the reference", target.channels),
                              std::to_string(other->channels));
         found.pairs.push_back({ours.target, theirs.target});
         taken.push_back(other);

@@ -133,10 +133,11 @@ TargetImage raw_target(std::string_view bytes, const std::string& thing, const R
     // The last row may end without its padding.
     const std::size_t least = layout.offset + (rows - 1) * stride + row, whole = layout.offset + rows * stride;
     if (bytes.size() != least && bytes.size() != whole)
-        throw InputError(thing, "size",
-                         fmt::format("{} bytes for {}x{} pixels, {} bytes a row{}", whole, layout.width, layout.height,
-                                     stride, layout.offset == 0 ? "" : fmt::format(" behind {}", layout.offset)),
-                         std::to_string(bytes.size()));
+        throw InputError(
+            thing, "size",
+            fmt::format("{} bytes ({}{} rows of {} bytes)", whole,
+                        layout.offset == 0 ? "" : fmt::format("offset {}, ", layout.offset), layout.height, stride),
+            fmt::format("{} bytes", bytes.size()));
     const std::size_t codes = static_cast<std::size_t>(layout.width) * static_cast<std::size_t>(layout.channels);
     target.codes.resize(codes * rows);
     for (std::size_t y = 0; y < rows; ++y)

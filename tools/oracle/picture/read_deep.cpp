@@ -37,7 +37,7 @@ Channels channels_of(const StoredPart& part, const std::vector<const char*>& nam
         if (const auto place = find_channel(part.header, name)) channels.places.push_back(*place);
     for (const scenes::ChannelLayout& place : channels.places)
         if (place.type != channels.places[0].type || place.type == scenes::StoredType::word)
-            throw InputError(path, "deep part", "channels of one type, half or binary32", "others");
+            throw InputError(path, "deep part", "channels of one type, HALF or FLOAT", "UINT or several types");
     if (!channels.places.empty() && channels.places[0].type == scenes::StoredType::half) channels.code = Code::half;
     return channels;
 }
@@ -72,12 +72,12 @@ TargetImage empty_target(const StoredPart& part, const Channels& channels, std::
 
 std::vector<TargetImage> layers_of_deep(const StoredPart& part, const std::string& path) {
     const Channels color = channels_of(part, {"R", "G", "B", "A"}, path), depth = channels_of(part, {"Z"}, path);
-    if (color.places.empty()) throw InputError(path, "deep part", "one of the channels R, G, B and A", "none");
+    if (color.places.empty()) throw InputError(path, "deep part", "a channel R, G, B or A", "none of them");
     // A file without any sample has one empty layer.
     const std::size_t layers =
         std::max<std::size_t>(1, part.samples.empty() ? 0 : *std::ranges::max_element(part.samples));
     if (layers * part.samples.size() > most_samples)
-        throw InputError(path, "deep part", fmt::format("at most {} samples in layers of all pixels", most_samples),
+        throw InputError(path, "deep part", fmt::format("at most {} samples (layers times pixels)", most_samples),
                          fmt::format("{} layers of {} pixels", layers, part.samples.size()));
     std::vector<TargetImage> colors, depths;
     for (std::size_t layer = 0; layer < layers; ++layer) {

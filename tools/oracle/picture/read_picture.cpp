@@ -74,7 +74,8 @@ void add_foreign(const StoredPart& part, const std::string& path, int number, st
     const auto type_of = [&](const std::string& name) { return scenes::find_channel(part.header, name)->type; };
     for (const std::string& name : colors)
         if (type_of(name) != type_of(colors[0]))
-            throw InputError(path, fmt::format("part {}", number), "colour channels of one type", "several types");
+            throw InputError(path, fmt::format("part {}", number), "colour channels R, G, B and A of one type",
+                             "channels of several types");
     if (!colors.empty()) {
         targets.push_back(of_channels(part, colors, Meaning::color));
         targets.back().name = "color";
@@ -94,7 +95,7 @@ Picture read_exr(const std::string& path) {
         const auto fail = [&](const char* expected, const char* found) {
             throw InputError(path, fmt::format("part {}", number), expected, found);
         };
-        if (!part.is_whole) fail("a whole image", "a damaged one");
+        if (!part.is_whole) fail("pixels that OpenEXR can read", "a truncated or damaged image");
         if (part.header.is_deep) {
             for (TargetImage& layer : layers_of_deep(part, path)) {
                 if (part.header.name.starts_with("sample.")) layer.part = part.header.name + "." + layer.part;
@@ -174,8 +175,8 @@ Picture read_picture(const std::string& path, const std::optional<RawLayout>& la
     if (!std::filesystem::exists(path, ignored)) throw InputError(path, "no such file");
     throw InputError(
         path, "name",
-        "a file that ends in .exr, .npy, .png, .jpg, .ppm, .pgm, .tga, .bmp, .tif or .hdr, or --layout for one of bare "
-        "numbers",
+        "a file that ends in .exr, .npy, .png, .jpg, .ppm, .pgm, .tga, .bmp, .tif or .hdr, or --layout for a file of "
+        "raw numbers",
         "another ending");
 }
 

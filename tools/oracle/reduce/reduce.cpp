@@ -72,7 +72,7 @@ class Reducer {
         result.width_before = whole_.options.width;
         result.height_before = whole_.options.height;
         const auto drawn = comparison_of(whole_, best_.window);
-        if (!drawn) throw InputError("candidate", "picture", "one of the scene's size", "none");
+        if (!drawn) throw InputError("candidate", "picture", "a picture of the scene's size", "no such picture");
         if (drawn->accepted) return std::nullopt;
         const auto most = std::ranges::max_element(drawn->kinds, {}, &KindReport::beyond);
         result.kind = kind_ = most->kind;

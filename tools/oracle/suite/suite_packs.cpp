@@ -82,7 +82,7 @@ Scenes scenes_in(const std::string& list, const std::string& file) {
         throw InputError(file, place, expected, found);
     };
     if (!parsed.is_object() || parsed.value("format", nlohmann::json{}) != "strata-suite")
-        fail("/format", "\"strata-suite\"", "something else");
+        fail("/format", "\"strata-suite\"", "another format");
     if (const auto version = parsed.value("version", nlohmann::json{}); version != 1)
         fail("/version", "1", version.is_null() ? "none" : version.dump());
     const auto listed = parsed.find("scenes");
@@ -103,7 +103,7 @@ Scenes scenes_in(const std::string& list, const std::string& file) {
 std::string first_difference(const std::string& found, const std::string& expected) {
     const auto at = std::mismatch(found.begin(), found.end(), expected.begin(), expected.end());
     const auto line = 1 + std::count(found.begin(), at.first, '\n');
-    return "line " + std::to_string(line) + ": differs from the suite made again";
+    return "line " + std::to_string(line) + ": differs from the list that strata derives again";
 }
 
 }  // namespace

@@ -67,5 +67,5 @@ TEST_CASE("the error of compare contains the relation of the sizes") {
     Picture b = make_picture({made(12, 8, [](int x, int y) { return texel(x / 2, y / 2); })});
     b.file = "twice.png";
     CHECK_THROWS_WITH(compare(a, b),
-                      "twice.png: size: expected 6x4 as the reference, found 12x8, the reference scaled by 2");
+                      "twice.png: size: expected 6x4, the reference's size, found 12x8, the reference scaled by 2");
 }

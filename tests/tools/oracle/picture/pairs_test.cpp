@@ -59,9 +59,9 @@ TEST_CASE("a picture without alpha equals only one whose alpha is 1 and the miss
 TEST_CASE("channels that no rule makes comparable are an error and not compared in part") {
     Picture two = one(2, {1, 2});
     CHECK_THROWS_WITH(compare(one(4, {1, 2, 3, 4}), two),
-                      "picture: color: expected 4 channels as the reference has, found 2");
+                      "picture: color: expected 4 channels, as in the reference, found 2");
     CHECK_THROWS_WITH(compare(one(3, {1, 2, 3}), one(1, {1})),
-                      "picture: color: expected 3 channels as the reference has, found 1");
+                      "picture: color: expected 3 channels, as in the reference, found 1");
 }
 
 // For all 255 alphas above 0 and all colours up to alpha.

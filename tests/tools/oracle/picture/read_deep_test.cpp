@@ -68,10 +68,10 @@ TEST_CASE("deep parts without colours or with mixed channels or with too many la
     StoredPart part = part_of(1, 1, {{{1, 1, 1}}});
     part.header.channels[0].type = StoredType::word;
     CHECK_THROWS_WITH(layers_of_deep(part, "d.exr"),
-                      "d.exr: deep part: expected channels of one type, half or binary32, found others");
+                      "d.exr: deep part: expected channels of one type, HALF or FLOAT, found UINT or several types");
     part.header.channels = {{"X", StoredType::single}, {"Y", StoredType::single}, {"Z", StoredType::single}};
     CHECK_THROWS_WITH(layers_of_deep(part, "d.exr"),
-                      "d.exr: deep part: expected one of the channels R, G, B and A, found none");
+                      "d.exr: deep part: expected a channel R, G, B or A, found none of them");
     StoredPart large = part_of(1, 1, {{}});
     large.samples.assign(std::size_t{1} << 14, 0);
     large.samples[0] = 1u << 13;

@@ -155,7 +155,7 @@ TEST_CASE("raw numbers may be in the order blue first or in packed values or aft
     CHECK(codes("2x2:r8:stride=3:bottom-up:offset=2", rows) == Codes{3, 4, 1, 2});
     CHECK(codes("2x2:r8:offset=2:stride=3", rows.substr(0, 7)) == Codes{1, 2, 3, 4});  // the last row may be unpadded
     CHECK_THROWS_WITH(codes("2x2:r8:offset=2:stride=3", rows.substr(0, 6)),
-                      "memory: size: expected 8 bytes for 2x2 pixels, 3 bytes a row behind 2, found 6");
+                      "memory: size: expected 8 bytes (offset 2, 2 rows of 3 bytes), found 6 bytes");
 }
 
 TEST_CASE("PPM PGM TGA and BMP files have the codes of their bytes with the top row first") {

@@ -120,7 +120,7 @@ TEST_CASE("compare names what it expected when it is given something else") {
     std::ofstream{folder / "a.raw"} << "abc";
     CHECK(says({}) ==
           "strata: a.raw: name: expected a file that ends in .exr, .npy, .png, .jpg, .ppm, .pgm, .tga, .bmp, .tif or "
-          ".hdr, or --layout for one of bare numbers, found another ending\n");
+          ".hdr, or --layout for a file of raw numbers, found another ending\n");
 }
 
 // Four pixels, one of which differs in blue: as grey, and as bytes in the order blue, green, red after a header.

@@ -61,7 +61,7 @@ TEST_CASE("golden --suite writes the packs of the listed commands and the mistak
     CHECK_THAT(
         spoiled.out,
         Contains(scene + "/expected/front_to_back/picture.npy: byte 200, row 0, column 18, channel 0: expected "));
-    CHECK_THAT(spoiled.out, Contains("suite.json: line 7: differs from the suite made again\n"));
+    CHECK_THAT(spoiled.out, Contains("suite.json: line 7: differs from the list that strata derives again\n"));
 }
 
 TEST_CASE("golden --suite rejects options of single packs and unknown scene names") {
