@@ -15,8 +15,8 @@ void blend_materials(pipeline::DrawList& list, std::span<const MaterialAlpha> wa
             if (material.name != one.material) continue;
             is_found = true;
             if (material.alpha_mode == pipeline::AlphaMode::mask)
-                throw InputError(spec, "--alpha", "a material that is opaque or blended",
-                                 "'" + one.material + "', whose alpha is cut");
+                throw InputError(spec, "--alpha", "a material whose alphaMode is OPAQUE or BLEND",
+                                 "'" + one.material + "', whose alphaMode is MASK");
             material.alpha_mode = pipeline::AlphaMode::blend;
             material.front[3] *= one.alpha;
             material.back[3] *= one.alpha;

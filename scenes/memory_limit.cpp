@@ -13,6 +13,7 @@ namespace strata::scenes {
 namespace {
 
 std::atomic<std::uint64_t> limit = 0, least_for_a_pixel = 0;  // 0: none
+std::atomic<std::uint64_t> unchecked = 0;                     // bytes of needs for which the memory was not looked up
 
 // Reads the value of a line "NAME:   123 kB" of a file in /proc, in bytes.
 std::optional<std::uint64_t> kilobytes(const char* file, const std::string& name) {
@@ -54,17 +55,38 @@ std::string memory_text(std::uint64_t bytes) {
     return std::to_string(tenths / 10) + (tenths % 10 == 0 ? "" : "." + std::to_string(tenths % 10)) + " GB";
 }
 
-void check_pixels(const std::string& file, std::uint64_t width, std::uint64_t height, std::uint64_t bytes_a_pixel) {
+void check_memory_need(const std::string& file, const std::string& place, const NeededMemory& need) {
     const bool has_limit = limit > 0;
-    const std::uint64_t need = width * height * std::max<std::uint64_t>(bytes_a_pixel, least_for_a_pixel);
-    constexpr std::uint64_t surely_enough = std::uint64_t{64} << 20;
-    if (!has_limit && need < surely_enough) return;
+    const std::uint64_t step = std::uint64_t{has_limit ? 16u : 64u} << 20;
+    if ((unchecked += need.bytes) < step) return;
+    unchecked = 0;
     const auto free = has_limit ? std::optional{limit - std::min<std::uint64_t>(limit, held_memory())} : free_memory();
-    if (!free || need <= *free) return;
-    throw InputError(file, "size",
-                     "a picture that takes at most " + memory_text(*free) +
+    if (!free || need.bytes <= *free) return;
+    throw InputError(file, place,
+                     need.kind + " at most " + memory_text(*free) +
                          (has_limit ? ", which --max-memory leaves" : ", which this computer has free"),
-                     std::to_string(width) + "x" + std::to_string(height) + ", which takes about " + memory_text(need));
+                     need.amount + " about " + memory_text(need.bytes));
+}
+
+void check_file_memory(const std::string& file, std::uint64_t bytes) {
+    check_memory_need(
+        file, "size",
+        {.kind = "a file that takes", .amount = std::to_string(bytes) + " bytes, which take", .bytes = bytes});
+}
+
+// A number of two characters becomes a value of 16 bytes, in a vector that grows by copying.
+void check_json_memory(const std::string& file, std::uint64_t bytes) {
+    check_memory_need(file, "size",
+                      {.kind = "JSON that takes",
+                       .amount = std::to_string(bytes) + " bytes, which take",
+                       .bytes = std::uint64_t{16} * bytes});
+}
+
+void check_pixels(const std::string& file, std::uint64_t width, std::uint64_t height, std::uint64_t bytes_a_pixel) {
+    check_memory_need(file, "size",
+                      {.kind = "a picture that takes",
+                       .amount = std::to_string(width) + "x" + std::to_string(height) + ", which takes",
+                       .bytes = width * height * std::max<std::uint64_t>(bytes_a_pixel, least_for_a_pixel)});
 }
 
 }  // namespace strata::scenes

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <atomic>
+#include <filesystem>
 #include <mutex>
 #include <set>
 #include <utility>
@@ -14,7 +15,9 @@ namespace {
 
 std::atomic<bool> is_protecting{false};
 std::mutex mutex;
-std::set<std::pair<dev_t, ino_t>> read;  // used under `mutex`
+// Used under `mutex`. Folders have no unique inode: a folder may be removed, and another get its inode.
+std::set<std::pair<dev_t, ino_t>> read;
+std::set<std::filesystem::path> packs;
 
 }  // namespace
 
@@ -27,12 +30,25 @@ void note_read_file(const std::string& path) {
     read.emplace(status.st_dev, status.st_ino);
 }
 
-void check_not_read(const std::string& path) {
-    struct stat status {};
-    if (!is_protecting || ::lstat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return;
+void note_read_pack(const std::string& folder) {
+    if (!is_protecting) return;
+    std::error_code ignored;
     const std::scoped_lock lock{mutex};
-    if (read.contains({status.st_dev, status.st_ino}))
+    packs.insert(std::filesystem::weakly_canonical(folder, ignored));
+}
+
+void check_not_read(const std::string& path) {
+    if (!is_protecting) return;
+    const std::scoped_lock lock{mutex};
+    struct stat status {};
+    if (::lstat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && read.contains({status.st_dev, status.st_ino}))
         throw InputError(path, "is a file that this command reads: expected another name for its result");
+    if (packs.empty()) return;
+    std::error_code ignored;
+    for (auto folder = std::filesystem::weakly_canonical(path, ignored); folder.has_relative_path();
+         folder = folder.parent_path())
+        if (packs.contains(folder))
+            throw InputError(path, "is in a pack that this command reads: expected a place outside of it");
 }
 
 }  // namespace strata::scenes

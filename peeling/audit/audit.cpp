@@ -60,7 +60,7 @@ void move(PixelCount& count, int dx, int dy) {
     const std::uint64_t list_bytes =
         fragments * AuditMemory::bytes_per_fragment * 2 * static_cast<std::uint64_t>(samples);
     const std::uint64_t needed = list_bytes > bytes ? list_bytes : 2 * bytes;  // the length of the trace is not known
-    throw InputError("strata", "--fragment-memory",
+    throw InputError("audit", "--fragment-memory",
                      "at least " + std::to_string(needed) + " bytes for the audit of pixel (" +
                          std::to_string(pixel.rect.x0) + ", " + std::to_string(pixel.rect.y0) + "), which has " +
                          std::to_string(fragments) + " fragments, or --no-audit",
@@ -68,7 +68,7 @@ void move(PixelCount& count, int dx, int dy) {
 }
 
 [[noreturn]] void throw_samples_too_large(std::uint64_t needed, const std::string& what, std::uint64_t bytes) {
-    throw InputError("strata", "--fragment-memory",
+    throw InputError("audit", "--fragment-memory",
                      "at least " + std::to_string(needed) + " bytes for the audit of " + what +
                          ", because samples that load one another are audited together, or --no-audit, or a smaller "
                          "--size",
@@ -274,7 +274,7 @@ struct Audit::Impl {
                 all.add(run_all_again(std::exchange(all.left, {}), result, memory));
         } catch (const NeedsFrame&) {
             throw InputError(
-                "strata", "--fragment-memory",
+                "audit", "--fragment-memory",
                 "more memory for the trace of the whole frame (its lookups read beyond their tiles), or --no-audit",
                 std::to_string(bytes));
         }

@@ -186,7 +186,7 @@ FrameFragments Renderer::fragments(const Algorithm& algorithm) {
     const std::uint64_t fragments = fragment_count(*frame.transparent);
     const std::uint64_t bytes = FrameFragments::bytes_per_fragment * fragments;
     if (bytes > setup.audit_memory())
-        throw InputError("strata", "--fragment-memory",
+        throw InputError("audit", "--fragment-memory",
                          "at least " + std::to_string(bytes) + " bytes for the frame's " + std::to_string(fragments) +
                              " fragments in total",
                          std::to_string(setup.audit_memory()));

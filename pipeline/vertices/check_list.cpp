@@ -16,7 +16,7 @@ constexpr int greatest_size_px = 16384;
 
 void check_indices(const Requirements& list, const Mesh& mesh, std::size_t number) {
     const FieldName indices{"meshes", number, "indices"};
-    if (mesh.indices.size() % 3 != 0) list.fail(indices, "three a triangle", mesh.indices.size());
+    if (mesh.indices.size() % 3 != 0) list.fail(indices, "three per triangle", mesh.indices.size());
     // Computes the greatest index in one loop without branches, and searches only if it is too large.
     std::uint32_t greatest = 0;
     for (const std::uint32_t i : mesh.indices) greatest = std::max(greatest, i);

@@ -40,7 +40,10 @@ void check(const std::string& path, const Imf::Header& header) {
     check(path, "size of the display window", header.displayWindow());
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
         if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1)
-            throw InputError(path, std::string{"channel "} + channel.name(), "a sample for every pixel", "fewer");
+            throw InputError(path, std::string{"channel "} + channel.name(),
+                             "a sample for every pixel (sampling 1 x 1)",
+                             "sampling " + std::to_string(channel.channel().xSampling) + " x " +
+                                 std::to_string(channel.channel().ySampling));
     // A channel is stored as bytes and as 32-bit codes.
     constexpr std::uint64_t most_bytes_a_channel = 8;
     std::uint64_t channels = 0;
@@ -180,7 +183,8 @@ void check_sizes_of_attributes(const std::string& path) {
     exr_context_t context = nullptr;
     if (exr_start_read(&context, path.c_str(), &wrong.initializer) == EXR_ERR_SUCCESS) exr_finish(&context);
     if (!wrong.message.empty())
-        throw InputError(path, "file", "an EXR image", "one with an attribute beyond its end: " + wrong.message);
+        throw InputError(path, "file", "an EXR image",
+                         "an attribute that ends beyond the end of the file (" + wrong.message + ")");
 }
 
 std::unique_ptr<Imf::MultiPartInputFile> open(const std::string& path) {
@@ -195,7 +199,8 @@ std::unique_ptr<Imf::MultiPartInputFile> open(const std::string& path) {
     } catch (const std::exception&) {
         std::string begin(64, '\0');
         std::ifstream{path, std::ios::binary}.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-        throw InputError(path, "file", "an EXR image", is_lfs_pointer(begin) ? lfs_pointer_found : "something else");
+        throw InputError(path, "file", "an EXR image",
+                         is_lfs_pointer(begin) ? lfs_pointer_found : "a header that OpenEXR cannot read");
     }
 }
 

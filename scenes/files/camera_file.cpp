@@ -36,9 +36,7 @@ struct JsonField {
     [[noreturn]] void fail(const std::string& expected, const std::string& found) const {
         throw InputError(file, pointer.empty() ? "/" : pointer, expected, found);
     }
-    [[noreturn]] void fail(const std::string& expected) const {  // dump recurses: unsafe if nested deeply
-        fail(expected, value.is_structured() ? value.type_name() : value.dump().substr(0, 64));
-    }
+    [[noreturn]] void fail(const std::string& expected) const { fail(expected, json_in_words(value)); }
     [[nodiscard]] JsonField operator[](std::string_view key) const {
         return {file, pointer + "/" + std::string{key}, value.at(std::string{key})};
     }
@@ -79,10 +77,8 @@ double number(const JsonField& field) {
 // The length is compared first, so that an element's error can name its index.
 template <std::size_t count>
 std::array<double, count> numbers(const JsonField& field) {
-    if (!field.value.is_array() || field.value.size() != count) {
-        field.fail(fmt::format("an array of {} numbers", count),
-                   field.value.is_array() ? fmt::format("{} elements", field.value.size()) : field.value.type_name());
-    }
+    if (!field.value.is_array() || field.value.size() != count)
+        field.fail(fmt::format("an array of {} numbers", count));
     std::array<double, count> result{};
     for (std::size_t i = 0; i < count; ++i) result[i] = number(field[i]);
     return result;
@@ -128,11 +124,11 @@ LookAt parse_look_at(const JsonField& camera) {
     if (!(result.near > 0)) camera["near"].fail("a distance above 0");
     if (result.near < smallest) camera["near"].fail("a distance of at least 2^-64");
     if (!(result.near < result.far)) camera["far"].fail(fmt::format("a distance beyond near, {}", result.near));
-    if (result.eye == result.center) camera["center"].fail("a point that is not the eye");
+    if (result.eye == result.center) camera["center"].fail("a point that differs from eye", "the same point");
     // The bound is 10^-12 for the sine itself: below it the cross product is rounding noise, and the image would turn
     // with its last bits.
     if (!(squared_sine(minus(result.center, result.eye), result.up) > 1e-24))
-        camera["up"].fail("a direction across the line of sight");
+        camera["up"].fail("a direction that is not parallel to the line of sight", "a parallel or zero vector");
     return result;
 }
 
@@ -156,7 +152,7 @@ bool is_singular(std::array<double, 16> rows) {
 
 pipeline::Matrix matrix(const JsonField& field) {
     const auto entries = numbers<16>(field);
-    if (is_singular(entries)) field.fail("a matrix that can be inverted", "one that cannot");
+    if (is_singular(entries)) field.fail("a matrix that can be inverted", "a singular matrix");
     return matrix_of(entries);
 }
 
@@ -181,7 +177,7 @@ pipeline::View parse_camera(const std::string& text, const std::string& name, do
     const FloatEnvironment environment;
     const json document = parse_strict_json(text, name, "a camera in JSON");
     const JsonField camera{name, "", document};
-    if (!document.is_object()) camera.fail("an object", document.type_name());
+    if (!document.is_object()) camera.fail("an object");
     for (const auto& [key, value] : document.items()) {  // a misspelled key must not select the form
         if (std::ranges::find(all_keys, key) == std::end(all_keys))
             camera.fail(fmt::format("only the keys {}", fmt::join(all_keys, ", ")),

@@ -88,7 +88,8 @@ std::array<std::size_t, words_per_fragment> offsets_in(const PartHeader& header,
         const StoredType type = i < first_integer ? StoredType::single : StoredType::word;
         // A deep file of another program has other channels and is rejected.
         if (!channel || channel->type != type)
-            throw InputError(path, "part 0", std::string{"a channel "} + names[i] + " as strata writes it", "none");
+            throw InputError(path, "part 0", std::string{"the channel "} + names[i] + " in the type that strata writes",
+                             "no such channel");
         offsets[i] = channel->offset;
     }
     return offsets;
@@ -126,7 +127,9 @@ void write_deep(const std::string& path, std::span<const DeepFragments> samples,
 }
 
 DeepFragments as_fragments(const StoredPart& part, const std::string& path) {
-    if (!part.header.is_deep || !part.is_whole) throw InputError(path, "part 0", "a whole deep image", "none");
+    if (!part.header.is_deep || !part.is_whole)
+        throw InputError(path, "part 0", "a deep image",
+                         part.is_whole ? "a flat image" : "a truncated or damaged image");
     const auto offsets = offsets_in(part.header, path);
     DeepFragments fragments{.width = part.header.width, .height = part.header.height, .premultiplied = true};
     if (attribute(part.header, "colour") == name_of(pipeline::ColorSpace::linear))

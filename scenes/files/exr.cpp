@@ -144,8 +144,8 @@ class PartReader {
   public:
     PartReader(const StoredPart& part, int number, const std::string& path)
         : path_{path}, number_{number}, part_{part}, header_{part.header}, pixel_bytes_{pixel_bytes(header_)} {
-        if (header_.is_deep) fail("a flat image", "a deep one");
-        if (!part.is_whole) fail("a whole image", "a damaged one");
+        if (header_.is_deep) fail("a flat image", "a deep image");
+        if (!part.is_whole) fail("pixels that OpenEXR can read", "a truncated or damaged image");
     }
 
     void append_to(std::vector<FileImage>& images) const {
@@ -153,7 +153,7 @@ class PartReader {
         if (!find_channel(header_, "Zbits")) return;
         const auto depth = format_named(attribute(header_, "format.depth"));
         if (!depth || !pipeline::is_depth(*depth))
-            fail("an attribute strata:format.depth that names a depth format", "none");
+            fail("the attribute strata:format.depth with the name of a depth format", "no such attribute");
         images.push_back({header_.name, "depth", target(*depth, {"Z"})});
     }
 
@@ -167,7 +167,7 @@ class PartReader {
         if (const auto format = format_named(attribute(header_, "format.color")); format && pipeline::is_color(*format))
             return *format;
         const auto red = find_channel(header_, "R");
-        if (!red || red->type == StoredType::word) fail("colour channels R G B A", "none");
+        if (!red || red->type == StoredType::word) fail("colour channels R G B A", "no such channels");
         return red->type == StoredType::half ? Format::rgba16f : Format::rgba32f;
     }
 
@@ -180,7 +180,8 @@ class PartReader {
             const auto bits = find_channel(header_, names[c] + "bits");
             const auto source = bits ? bits : find_channel(header_, names[c]);
             if (!source || source->type != (bits ? StoredType::word : type_of_codes(format)))
-                fail(fmt::format("a channel {} with codes of {}", names[c], pipeline::info(format).name), "none");
+                fail(fmt::format("the channel {} of a {} target", names[c], pipeline::info(format).name),
+                     "no such channel");
             copy_codes(*source, image, c);
         }
         return image;

@@ -29,6 +29,9 @@ struct ImageHeader {
 // Throws InputError at `location` for anything except a PNG or JPEG of permitted size.
 [[nodiscard]] ImageHeader read_image_header(Bytes bytes, const FileLocation& location);
 
+// Throws InputError at `location` if a BMP's pixels are not in the file: the decoder would read them as 0.
+void check_bmp_pixels(Bytes bytes, const FileLocation& location);
+
 // Returns width * height * 4 codes, top row first. `header` must be read_image_header's result for the same bytes.
 [[nodiscard]] std::vector<std::uint8_t> decode_image(Bytes bytes, const ImageHeader& header,
                                                      const FileLocation& location);

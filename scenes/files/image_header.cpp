@@ -36,7 +36,7 @@ void check_size(const ImageHeader& header, std::uint64_t least_bytes, std::size_
     if (least_bytes > bytes)
         location.fail("IMAGE_UNEXPECTED_EOS",
                       "at least " + std::to_string(least_bytes) + " bytes for " + size + " texels",
-                      std::to_string(bytes));
+                      std::to_string(bytes) + " bytes");
 }
 
 // The checksum covers the chunk's type and data, PNG 5.5; the table has its value for each byte.
@@ -68,7 +68,7 @@ void check_png_chunks(Bytes bytes, const FileLocation& location) {
         const std::size_t length = big_endian32(bytes, at);
         if (crc32(bytes.subspan(at + 4, length + 4)) != big_endian32(bytes, at + 8 + length))
             location.fail("IMAGE_DATA_INVALID", "PNG chunks with right checksums",
-                          "a wrong one at byte " + std::to_string(at + 8 + length));
+                          "a wrong checksum at byte " + std::to_string(at + 8 + length));
         if (big_endian32(bytes, at + 4) == iend) return;
         at += frame + length;
     }
@@ -80,7 +80,7 @@ ImageHeader png_header(Bytes bytes, const FileLocation& location) {
     if (bytes.size() < end)
         location.fail("IMAGE_UNEXPECTED_EOS", "a PNG header", std::to_string(bytes.size()) + " bytes");
     if (big_endian32(bytes, ihdr) != 13 || big_endian32(bytes, ihdr + 4) != 0x49484452)
-        location.fail("IMAGE_DATA_INVALID", "an IHDR chunk first", "another");
+        location.fail("IMAGE_DATA_INVALID", "an IHDR chunk of 13 bytes first", "another chunk");
     const ImageHeader header{ImageKind::png, big_endian32(bytes, ihdr + 8), big_endian32(bytes, ihdr + 12)};
     const std::uint64_t bits = byte_at(bytes, ihdr + 16);  // at least one channel of that many bits per texel
     // The size of the unpacked rows, counted as one channel: a lower bound if the file has several channels.
@@ -119,7 +119,7 @@ ImageHeader jpeg_header(Bytes bytes, const FileLocation& location) {
         if (marker == 0 || at + 8 > bytes.size())
             location.fail("IMAGE_UNEXPECTED_EOS", "an end-of-image marker", "none");
         if (is_frame(marker)) {
-            if (header.width != 0) location.fail("IMAGE_DATA_INVALID", "one frame", "another");
+            if (header.width != 0) location.fail("IMAGE_DATA_INVALID", "one frame header (SOF)", "a second one");
             header = {ImageKind::jpeg, big_endian16(bytes, at + 5), big_endian16(bytes, at + 3)};
             // A block of 64 samples takes at least a bit, so a byte holds at most 512 samples.
             check_size(header, std::uint64_t{header.width} * header.height / 512, bytes.size(), location);
@@ -128,20 +128,49 @@ ImageHeader jpeg_header(Bytes bytes, const FileLocation& location) {
                 location.fail("IMAGE_DATA_INVALID", "a JPEG of 1 or 3 channels", std::to_string(channels));
         }
         if (marker == scan && ++scans > max_jpeg_scans)
-            location.fail("IMAGE_DATA_INVALID", "at most " + std::to_string(max_jpeg_scans) + " scans", "more");
+            location.fail("IMAGE_DATA_INVALID", "at most " + std::to_string(max_jpeg_scans) + " scans", "more scans");
         // TEM, 0x01, has no length; every other marker here has a 16-bit length that includes itself.
         if (marker != 0x01) at += big_endian16(bytes, at);
     }
-    if (header.width == 0 || scans == 0) location.fail("IMAGE_DATA_INVALID", "a frame and a scan", "none");
+    if (header.width == 0 || scans == 0)
+        location.fail("IMAGE_DATA_INVALID", "a frame header (SOF) and a scan (SOS)", "no such marker");
     return header;
 }
 
 }  // namespace
 
+// BITMAPFILEHEADER has the offset of the pixels at byte 10. A header of 40 bytes or more follows, or
+// BITMAPCOREHEADER of 12.
+void check_bmp_pixels(Bytes bytes, const FileLocation& location) {
+    const auto word16 = [&](std::size_t at) { return byte_at(bytes, at) | byte_at(bytes, at + 1) << 8; };
+    const auto word32 = [&](std::size_t at) { return std::uint64_t{word16(at)} | std::uint64_t{word16(at + 2)} << 16; };
+    constexpr std::size_t of_core_header = 26, of_info_header = 54;
+    if (bytes.size() < of_core_header)
+        location.fail("IMAGE_UNEXPECTED_EOS", "a BMP header", std::to_string(bytes.size()) + " bytes");
+    const bool is_core = word32(14) == 12;
+    std::uint64_t end = word32(10) + 1;
+    if (is_core || bytes.size() >= of_info_header) {
+        const std::uint64_t width = is_core ? word16(18) : word32(18), rows = is_core ? word16(20) : word32(22);
+        const std::uint64_t bits = word16(is_core ? 24 : 28), compression = is_core ? 0 : word32(30);
+        const std::uint64_t height = rows >> 31 == 0 ? rows : (std::uint64_t{1} << 32) - rows;  // negative: top down
+        constexpr std::uint64_t none = 0, bit_fields = 3;
+        // Rows end at a multiple of 4 bytes. Factors below 2^32, 2^16 and 2^32: the product is checked by division.
+        const std::uint64_t row = (width * bits + 31) / 32 * 4;
+        if ((compression == none || compression == bit_fields) && (height == 0 || row <= bytes.size() / height))
+            end = word32(10) + row * height;
+        else if (compression == none || compression == bit_fields)
+            end = std::uint64_t{bytes.size()} + 1;
+    }
+    if (end > bytes.size())
+        location.fail("IMAGE_UNEXPECTED_EOS",
+                      "a BMP whose pixels end within the file's " + std::to_string(bytes.size()) + " bytes",
+                      "pixels that begin at byte " + std::to_string(word32(10)));
+}
+
 ImageHeader read_image_header(Bytes bytes, const FileLocation& location) {
     if (is_png(bytes)) return png_header(bytes, location);
     if (is_jpeg(bytes)) return jpeg_header(bytes, location);
-    location.fail("IMAGE_UNRECOGNIZED_FORMAT", "a PNG or JPEG image", "neither");
+    location.fail("IMAGE_UNRECOGNIZED_FORMAT", "a PNG or JPEG image", "another format");
 }
 
 }  // namespace strata::scenes

@@ -14,6 +14,7 @@
 #include "scenes/files/image_decode.h"
 #include "scenes/files/image_formats.h"
 #include "scenes/files/system_error.h"
+#include "scenes/memory_limit.h"
 
 namespace strata::scenes {
 ImageFile image_file(const std::string& path) {
@@ -104,6 +105,12 @@ void write_image(const std::string& path, const OutputColor& image, ImageFile ki
 
 // image_header.cpp has read the header; the decoder rejects an image that differs from it.
 std::vector<std::uint8_t> decode_image(Bytes bytes, const ImageHeader& header, const FileLocation& location) {
+    // Texels, next to the decoder's codes.
+    constexpr std::uint64_t bytes_of_a_texel = 8;
+    check_memory_need(location.file, location.pointer.empty() ? "size" : location.pointer,
+                      {.kind = "an image that takes",
+                       .amount = std::to_string(header.width) + "x" + std::to_string(header.height) + ", which takes",
+                       .bytes = std::uint64_t{header.width} * header.height * bytes_of_a_texel});
     return image_module().decode({.bytes = bytes,
                                   .reader = header.kind == ImageKind::png ? "png" : "jpeg",
                                   .width = static_cast<int>(header.width),

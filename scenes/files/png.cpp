@@ -63,6 +63,7 @@ FileCodes read_codes(const std::string& path, const char* reader) {
         picture.width = static_cast<int>(header.width);
         picture.height = static_cast<int>(header.height);
     }
+    if (reader == std::string_view{"bmp"}) check_bmp_pixels(bytes, location);
     picture.check = [](const FileLocation& place, int width, int height, std::uint64_t bytes_a_pixel) {
         check_pixels(place.file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height), bytes_a_pixel);
     };
@@ -76,7 +77,7 @@ std::vector<FileImage> read_png(const std::string& path) {
     const ImageHeader header = read_image_header(bytes, location);  // chunks are whole: libpng prints nothing
     // PNG 11.2.2: bit depth and colour type, of which bit 1 means colour.
     if (header.kind != ImageKind::png || bytes[24] != std::byte{8} || (bytes[25] & std::byte{2}) == std::byte{0})
-        throw InputError(path, "format", "a PNG with 8-bit colours", "another image");
+        throw InputError(path, "format", "a PNG with 8 bits per channel, RGB or RGBA", "another kind of image");
     const std::vector<std::uint8_t> codes = decode_image(bytes, header, location);
     Image image = Image::for_overwrite(Format::rgba8, static_cast<int>(header.width), static_cast<int>(header.height));
     std::copy_n(codes.data(), codes.size(), image.codes.data());

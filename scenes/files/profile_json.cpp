@@ -92,13 +92,8 @@ Names keys(bool of_raster) {
     return names;
 }
 
-std::string shown(const json& value) {  // dump recurses: unsafe if nested deeply
-    return value.is_structured() ? value.type_name()
-                                 : value.dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 64);
-}
-
 void check_keys(const json& object, const Names& allowed, const std::string& file, const std::string& location) {
-    if (!object.is_object()) throw InputError(file, location, "an object", shown(object));
+    if (!object.is_object()) throw InputError(file, location, "an object", json_in_words(object));
     // A misspelled key is an error: if it were ignored, its field would silently keep the base's value.
     for (const auto& [key, value] : object.items())
         if (std::ranges::find(allowed, key) == allowed.end())
@@ -111,7 +106,7 @@ std::string text(const json& document, const std::string& key, std::size_t longe
     const std::string expected = fmt::format("a string of at most {} bytes", longest);
     if (found == document.end()) throw InputError(file, "/" + key, expected, "nothing");
     if (!found->is_string() || found->get_ref<const std::string&>().size() > longest)
-        throw InputError(file, "/" + key, expected, shown(*found));
+        throw InputError(file, "/" + key, expected, json_in_words(*found));
     return found->get<std::string>();
 }
 
@@ -153,7 +148,7 @@ std::optional<int> value_of(const ProfileField& field, const json& value) {
 std::string found_text(const ProfileField& field, const json& value) {
     if (field.kind == FieldKind::choice && value.is_string())
         return quoted_with_suggestion(value.get_ref<const std::string&>(), field.choices);
-    return shown(value);
+    return json_in_words(value);
 }
 
 // The built-in profile that the file is based on; null if the file has no base.
@@ -188,10 +183,10 @@ std::vector<std::string> open_of(const json& document, const std::string& file) 
     for (const ProfileField& field : profile_fields()) known.push_back(field.key);
     const json& listed = document["open"];
     const std::string expected = "an array of keys of a profile, such as raster.snap";
-    if (!listed.is_array()) throw InputError(file, "/open", expected, shown(listed));
+    if (!listed.is_array()) throw InputError(file, "/open", expected, json_in_words(listed));
     for (std::size_t i = 0; i < listed.size(); ++i) {
         const std::string location = fmt::format("/open/{}", i);
-        if (!listed[i].is_string()) throw InputError(file, location, "a key of a profile", shown(listed[i]));
+        if (!listed[i].is_string()) throw InputError(file, location, "a key of a profile", json_in_words(listed[i]));
         open.push_back(listed[i].get<std::string>());
         if (std::ranges::find(known, open.back()) == known.end())
             throw InputError(file, location, "a key of a profile", quoted_with_suggestion(open.back(), known));
@@ -235,7 +230,7 @@ DeviceProfile parse_profile(const std::string& document_text, const std::string&
     // and messages, so line breaks and zero bytes are not allowed.
     const bool breaks = std::ranges::any_of(profile.name, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
     if (profile.name.empty() || breaks)
-        throw InputError(file, "/name", "a name without control characters", shown(document["name"]));
+        throw InputError(file, "/name", "a name without control characters", json_in_words(document["name"]));
     // A description may be inherited, a name may not.
     if (base == nullptr || document.contains("description"))
         profile.description = text(document, "description", longest_description, file);

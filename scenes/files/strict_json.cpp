@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rasterizer/base/input_error.h"
+#include "scenes/memory_limit.h"
 
 namespace strata::scenes {
 namespace {
@@ -22,7 +23,8 @@ class OpenObjects {
 
     // Returning false would drop a value; all are kept.
     bool operator()(int depth, json::parse_event_t event, const json& parsed) {
-        if (depth > most_levels) throw InputError(file_, location(), "at most 64 levels of arrays and objects", "more");
+        if (depth > most_levels)
+            throw InputError(file_, location(), "at most 64 levels of arrays and objects", "deeper nesting");
         if (event == json::parse_event_t::object_start) levels_.emplace_back();
         if (event == json::parse_event_t::object_end) levels_.pop_back();
         if (event == json::parse_event_t::key) enter(parsed.get<std::string>());
@@ -38,7 +40,7 @@ class OpenObjects {
     void enter(const std::string& name) {
         Level& level = levels_.back();
         level.last = name;
-        if (!level.names.insert(name).second) throw InputError(file_, location(), "each key once", "this one twice");
+        if (!level.names.insert(name).second) throw InputError(file_, location(), "each key once", "this key twice");
     }
 
     // The path of keys of the enclosing objects; array positions are not known here.
@@ -64,6 +66,7 @@ void check_no_nul(const std::string& text, const std::string& file, const std::s
 json parse_strict_json(const std::string& text, const std::string& file, const std::string& what) {
     OpenObjects keys{file};
     check_no_nul(text, file, what);
+    check_json_memory(file, text.size());
     try {
         return json::parse(text, std::ref(keys));
     } catch (const json::parse_error& error) {
@@ -71,6 +74,13 @@ json parse_strict_json(const std::string& text, const std::string& file, const s
     } catch (const json::exception&) {
         throw InputError(file, "/", what, "a number out of range");
     }
+}
+
+// Objects and arrays are not written out: dump recurses, which is unsafe if they are nested deeply.
+std::string json_in_words(const json& value) {
+    if (value.is_object()) return "an object";
+    if (value.is_array()) return "an array of " + std::to_string(value.size());
+    return value.dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 64);
 }
 
 }  // namespace strata::scenes

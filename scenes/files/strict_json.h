@@ -13,4 +13,7 @@ namespace strata::scenes {
 [[nodiscard]] nlohmann::json parse_strict_json(const std::string& text, const std::string& file,
                                                const std::string& what);
 
+// The end of a message about a value: "an object", "an array of 3", or the value itself, at most 64 bytes of it.
+[[nodiscard]] std::string json_in_words(const nlohmann::json& value);
+
 }  // namespace strata::scenes

@@ -10,6 +10,7 @@
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/lfs_pointer.h"
+#include "scenes/memory_limit.h"
 #include "scenes/read_files.h"
 
 namespace strata::scenes {
@@ -19,12 +20,13 @@ std::string read_standard_input() {
     std::string text;
     while (text.size() <= most) {
         const std::size_t begin = text.size();
+        check_file_memory("standard input", step);
         text.resize(begin + step);
         std::cin.read(text.data() + begin, static_cast<std::streamsize>(step));
         text.resize(begin + static_cast<std::size_t>(std::cin.gcount()));
         if (text.size() < begin + step) return text;
     }
-    throw InputError("standard input", "size", "at most 1 GiB", "more");
+    throw InputError("standard input", "size", "at most 1 GiB", "more bytes");
 }
 
 std::size_t size_of_file(const std::string& path, std::size_t max_bytes) {
@@ -32,18 +34,21 @@ std::size_t size_of_file(const std::string& path, std::size_t max_bytes) {
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) throw InputError(path, "no such file");
     if (!std::filesystem::is_regular_file(status))
-        throw InputError(path,
-                         std::filesystem::is_directory(status) ? "is a folder, not a file" : "is no file but a device");
+        throw InputError(path, std::filesystem::is_directory(status) ? "is a folder, not a file"
+                                                                     : "is a device or a pipe, not a file");
     const auto size = std::filesystem::file_size(path, error);
     if (error) throw InputError(path, "cannot be read: " + error.message());
     // The limit is checked before memory is allocated.
     if (size > max_bytes)
-        throw InputError(path, "has " + std::to_string(size) + " bytes, the limit is " + std::to_string(max_bytes));
+        throw InputError(path, "size", "at most " + std::to_string(max_bytes) + " bytes",
+                         std::to_string(size) + " bytes");
     return static_cast<std::size_t>(size);
 }
 
 std::string read_begin_of_file(const std::string& path, std::size_t bytes) {
-    std::string text(std::min(size_of_file(path, std::numeric_limits<std::size_t>::max()), bytes), '\0');
+    const std::size_t size = std::min(size_of_file(path, std::numeric_limits<std::size_t>::max()), bytes);
+    check_file_memory(path, size);
+    std::string text(size, '\0');
     std::ifstream file(path, std::ios::binary);
     // A file that shrank after its size was read is rejected, too: the read is short.
     if (!file || !file.read(text.data(), static_cast<std::streamsize>(text.size())))

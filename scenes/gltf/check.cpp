@@ -50,7 +50,7 @@ void check_asset(const JsonAt& root) {
     if (!least) return;
     const Version needed = version(*least);
     if (needed.major != 2) least->fail("UNKNOWN_ASSET_MAJOR_VERSION", "glTF version 2.x");
-    if (needed.minor > 0) least->fail("UNKNOWN_ASSET_MINOR_VERSION", "a reader of glTF 2.0 to be enough");
+    if (needed.minor > 0) least->fail("UNKNOWN_ASSET_MINOR_VERSION", "2.0, the version that strata reads");
 }
 
 void check_every_name(const JsonAt& root, Faults& faults) {  // of the objects that are used in the scene

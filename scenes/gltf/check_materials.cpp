@@ -49,7 +49,8 @@ void check_base_color_texture(const JsonAt& info, const JsonAt& root) {
     check_texture_transform(info);
     if (root.json()["textures"][texture].contains("source")) return;
     const FileLocation location = root.location().under("textures").under(texture);
-    location.fail("UNDEFINED_PROPERTY", "a PNG or JPEG image as source", "none (an extension would have to supply it)");
+    location.fail("UNDEFINED_PROPERTY", "a PNG or JPEG image as source",
+                  "no source (only an extension that strata does not read has one)");
 }
 
 // glTF 2.0, 3.9.2: linear r g b a, each from 0 to 1. JSON cannot write a NaN.

@@ -75,12 +75,13 @@ struct MeshChecker {
         const AccessorFormat f = format(root.json(), attribute.index(accessors));
         if (!is_allowed(name, f, is_quantized))
             attribute.fail("MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT",
-                           is_quantized ? "an accessor of a format for " + name
-                                        : "an accessor of a format for " + name + " without KHR_mesh_quantization");
+                           "an accessor whose type and componentType " + name + " allows" +
+                               (is_quantized ? "" : " without KHR_mesh_quantization"));
         // glTF 2.0, 3.6.2.4: each element of a vertex attribute begins at a multiple of 4 bytes.
         const std::uint64_t step = f.stride ? f.stride : element_bytes(f.type, f.component);
         if (f.offset % 4 != 0 || step % 4 != 0)
-            attribute.fail("MESH_PRIMITIVE_ACCESSOR_UNALIGNED", "vertices at multiples of 4 bytes");
+            attribute.fail("MESH_PRIMITIVE_ACCESSOR_UNALIGNED",
+                           "an accessor whose offset and stride are multiples of 4");
         if (count.value_or(f.count) != f.count)
             attribute.location().fail("MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT",
                                       "as many elements as the other attributes: " + std::to_string(*count),
@@ -92,7 +93,7 @@ struct MeshChecker {
     void check_indices(const JsonAt& indices) const {
         const AccessorFormat f = format(root.json(), indices.index(accessors));
         if (f.type != ElementType::scalar || !is_index_type(f.component) || f.is_normalized)
-            indices.fail("MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT", "an accessor of unsigned scalars");
+            indices.fail("MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT", "an accessor of unsigned integer scalars");
         if (f.stride != 0)
             indices.fail("MESH_PRIMITIVE_INDICES_ACCESSOR_WITH_BYTESTRIDE", "a bufferView without byteStride");
         const std::size_t index = indices.index(accessors);

@@ -60,8 +60,9 @@ class SceneBuilder {
         if (count > 0 && scene_.scene_index >= 0 && scene_.scene_index < count)
             return model_.scenes[static_cast<std::size_t>(scene_.scene_index)].nodes;
         if (options_.scene)
-            FileLocation{document_.file, "/scenes"}.fail(
-                "UNRESOLVED_REFERENCE", "a scene below " + std::to_string(count), std::to_string(*options_.scene));
+            FileLocation{document_.file, "/scenes"}.fail("UNRESOLVED_REFERENCE",
+                                                         "a scene number below " + std::to_string(count),
+                                                         std::to_string(*options_.scene));
         warnings_.add("/scenes", "the file has no scene: all its nodes are shown");
         std::vector<char> is_child(model_.nodes.size(), 0);
         for (const tinygltf::Node& node : model_.nodes)
@@ -104,8 +105,8 @@ class SceneBuilder {
         for (const Drawable& drawable : drawables) {
             const std::uint64_t corners = scene_.list.meshes[drawable.mesh].indices.size();
             if (corners > instanced_left_)
-                location_of(placed).fail("VALUE_NOT_IN_RANGE", "at most 2^31 corners of triangles",
-                                         "more with this node");
+                location_of(placed).fail("VALUE_NOT_IN_RANGE", "at most 2^31 indices in all instances together",
+                                         "more indices with this node");
             instanced_left_ -= corners;
             scene_.list.instances.push_back({drawable.mesh, drawable.material, placed.world});
         }

@@ -57,7 +57,8 @@ void check_instancing(const JsonAt& instancing, const JsonAt& root) {
             accessor.value("normalized", false) && (component == ComponentType::i8 || component == ComponentType::i16);
         if (*to_element_type(accessor["type"].get<std::string>()) != attribute.type ||
             !(is_float || (attribute.may_be_normalized && is_normalized)))
-            at->fail("INVALID_FORMAT", std::string("an accessor of a format for ") + attribute.name);
+            at->fail("INVALID_FORMAT",
+                     std::string("an accessor whose type and componentType ") + attribute.name + " allows");
         const auto own = accessor["count"].get<std::uint64_t>();
         if (count.value_or(own) != own)
             at->location().fail("UNEQUAL_ACCESSOR_COUNT",
@@ -73,7 +74,7 @@ std::vector<pipeline::Matrix> instance_transforms(const JsonAt& instancing, Acce
         std::array{reader_of(instancing, "TRANSLATION", accessors), reader_of(instancing, "ROTATION", accessors),
                    reader_of(instancing, "SCALE", accessors)};
     const AccessorReader& any = *(moved != nullptr ? moved : turned != nullptr ? turned : scaled);
-    budget.pay_elements(any.count(), instancing.location());
+    budget.pay_elements(any.count(), sizeof(pipeline::Matrix) + sizeof(pipeline::Instance), instancing.location());
     std::vector<pipeline::Matrix> transforms;
     transforms.reserve(any.count());
     for (std::size_t i = 0; i < any.count(); ++i)

@@ -13,17 +13,20 @@ namespace {
 using Indices = std::vector<std::uint32_t>;
 using pipeline::Vec3;
 
+// A position, a normal, a colour, a texture coordinate and an index, and indices while they are sorted.
+constexpr std::uint64_t bytes_of_a_vertex = 64;
+
 // The vertices in drawing order: the index accessor's elements, or 0, 1, 2 ... The budget is charged first: an accessor
 // without a view may claim 2^31 elements in a file of 200 bytes.
 Indices drawing_order(const PrimitiveSource& s, std::size_t vertex_count) {
     if (s.primitive.indices < 0) {
-        s.budget.pay_elements(vertex_count, s.location);
+        s.budget.pay_elements(vertex_count, bytes_of_a_vertex, s.location);
         Indices order(vertex_count);
         std::iota(order.begin(), order.end(), 0u);
         return order;
     }
     const AccessorReader& reader = s.accessors[s.primitive.indices];
-    s.budget.pay_elements(reader.count(), s.location);
+    s.budget.pay_elements(reader.count(), bytes_of_a_vertex, s.location);
     Indices order(reader.count());
     const FileLocation location{s.location.file, "/accessors/" + std::to_string(s.primitive.indices)};
     for (std::size_t i = 0; i < order.size(); ++i) {

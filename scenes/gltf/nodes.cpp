@@ -19,7 +19,8 @@ Vec3d unit(const Vec3d& v, const FileLocation& location) {
     const Vec3d scaled = divided(v, largest);  // so that no square overflows or underflows
     const double length = std::sqrt(dot_product(scaled, scaled));
     if (!(largest > 0) || !std::isfinite(length))
-        location.fail("VALUE_NOT_IN_RANGE", "a camera with a direction", "a transform that flattens it");
+        location.fail("VALUE_NOT_IN_RANGE", "a camera transform with three axes of finite length above 0",
+                      "an axis of length 0 or infinity");
     return divided(scaled, length);
 }
 

@@ -31,14 +31,17 @@ std::unique_ptr<OIIO::ImageInput> open(OIIO::Filesystem::IOProxy& memory, const 
     how.attribute("oiio:UnassociatedAlpha", 1);
     reader->set_ioproxy(&memory);
     if (!reader->open(std::string("image.") + picture.reader, spec, how))
-        location.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader->geterror()));
+        location.fail("IMAGE_DATA_INVALID", "an image that OpenImageIO can decode", in_quotes(reader->geterror()));
     // The memory budget was charged for the header's size: a decoder that finds another size is stopped before it
     // writes.
     if (picture.width != 0 && (spec.width != picture.width || spec.height != picture.height))
-        location.fail("IMAGE_DATA_INVALID", "an image of the size that its header says", "another");
+        location.fail(
+            "IMAGE_DATA_INVALID",
+            "the header's " + std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels",
+            std::to_string(spec.width) + " x " + std::to_string(spec.height));
     if (spec.depth != 1 || spec.nchannels < 1 || spec.nchannels > 4 || (spec.nchannels == 4 && spec.alpha_channel != 3))
-        location.fail("IMAGE_DATA_INVALID", "grey or red, green and blue, with or without alpha",
-                      std::to_string(spec.nchannels) + " other channels");
+        location.fail("IMAGE_DATA_INVALID", "1 to 4 channels: grey or RGB, with or without alpha",
+                      std::to_string(spec.nchannels) + " channels");
     check_size(spec, picture.bytes.size(), location);
     // A code is stored in 32 bits, next to the reader's.
     const std::uint64_t bytes_a_channel = sizeof(std::uint32_t) + spec.format.size();
@@ -51,7 +54,8 @@ std::unique_ptr<OIIO::ImageInput> open(OIIO::Filesystem::IOProxy& memory, const 
 void check_read(bool has_read, OIIO::ImageInput& reader, const FileLocation& location) {
     if (has_read && !reader.has_error()) return;
     const std::string why = reader.geterror();
-    location.fail("IMAGE_DATA_INVALID", "an image that decodes", why.empty() ? "one that does not" : in_quotes(why));
+    location.fail("IMAGE_DATA_INVALID", "an image that OpenImageIO can decode",
+                  why.empty() ? "an error without a message" : in_quotes(why));
 }
 
 // All channels as stored, 8 bits each.
@@ -140,7 +144,7 @@ FileCodes decode_codes(const EncodedPicture& picture, const FileLocation& locati
     } else if (spec.format == OIIO::TypeDesc::UINT8) {
         read_words<std::uint8_t>(*reader, OIIO::TypeDesc::UINT8, location, stored);
     } else {
-        location.fail("IMAGE_DATA_INVALID", "channels of 8 or 16 bits, halves or floats",
+        location.fail("IMAGE_DATA_INVALID", "channels of type uint8, uint16, half or float",
                       in_quotes(spec.format.c_str()));
     }
     turn_upright(stored, spec.get_int_attribute("Orientation", 1));

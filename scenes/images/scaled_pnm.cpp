@@ -40,7 +40,7 @@ std::optional<FileCodes> scaled_pnm(std::string_view bytes, const FileLocation& 
     static_cast<void>(take_number(rest));
     const std::uint32_t greatest = take_number(rest).value_or(0);
     if (greatest == 0 || greatest > 65535)
-        location.fail("IMAGE_DATA_INVALID", "a greatest value of 1 to 65535", std::to_string(greatest));
+        location.fail("IMAGE_DATA_INVALID", "a maximum value from 1 to 65535", std::to_string(greatest));
     if (greatest == 255) return std::nullopt;
     if (!is_text && !rest.empty()) rest.remove_prefix(1);
     FileCodes stored{.width = width, .height = height, .channels = channels, .bits = greatest < 256 ? 8 : 16};

@@ -62,7 +62,7 @@ std::optional<std::uint64_t> whole_number(std::string_view text) {
 std::uint64_t claimed(const std::string& text, std::string_view file, const std::string& path, const std::string& at) {
     const auto count = whole_number(text);
     if (!count || *count > file.size())
-        throw InputError(path, at, "a count of at most the file's " + std::to_string(file.size()) + " bytes",
+        throw InputError(path, at, "a count of at most " + std::to_string(file.size()) + ", the file's bytes",
                          text.empty() ? "none" : "'" + text + "'");
     return *count;
 }
@@ -157,8 +157,8 @@ void check_ply_counts(std::string_view file, const std::string& path) {
         const bool is_empty = element.properties.empty();  // elements without properties take no bytes
         for (std::uint64_t i = 0; i < element.count && !is_empty; ++i)
             if (!has_element(values, element))
-                throw InputError(path, "element " + element.name, std::to_string(element.count) + " of them",
-                                 "values for " + std::to_string(i));
+                throw InputError(path, "element " + element.name, std::to_string(element.count) + " elements",
+                                 "the values of " + std::to_string(i));
     }
 }
 

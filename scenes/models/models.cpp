@@ -20,6 +20,7 @@
 #include "scenes/files/text_file.h"
 #include "scenes/flat_normals.h"
 #include "scenes/inside_folder.h"
+#include "scenes/memory_limit.h"
 #include "scenes/models/load_model_module.h"
 #include "scenes/models/model_counts.h"
 #include "scenes/numbers/srgb_encode.h"
@@ -42,6 +43,7 @@ class ModelFolder {
     [[nodiscard]] std::vector<std::byte> read(const std::string& name) const {
         const fs::path relative = fs::path(name).lexically_normal();
         if (relative == fs::path(path_).filename()) {
+            check_model_memory();
             std::vector<std::byte> bytes = bytes_of(path_);
             const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
             if (has_ending(path_, ".ply")) models::check_ply_counts(text, path_);
@@ -59,6 +61,14 @@ class ModelFolder {
     }
 
   private:
+    // Assimp's meshes, next to ours and to the file's text, take up to 10 bytes for a byte of the file (STL).
+    void check_model_memory() const {
+        const std::uint64_t bytes = size_of_file(path_, max_bytes);
+        check_memory_need(path_, "size",
+                          {.kind = "a model that takes",
+                           .amount = std::to_string(bytes) + " bytes, which take",
+                           .bytes = 10 * bytes});
+    }
     [[nodiscard]] static std::vector<std::byte> bytes_of(const std::string& file) {
         const std::string text = read_text_file(file, max_bytes);
         const auto bytes = std::as_bytes(std::span{text});
@@ -75,8 +85,11 @@ class ModelScene {
     Scene build() {
         const std::string name = fs::path(path_).filename().string();
         LoadedModel model = loaded(name);
+        // Assimp reports a failed allocation, which large counts in a file cause, by the name of its exception.
+        if (model.failure == "std::bad_alloc")
+            throw InputError(path_, "size", "a model that fits into memory", "an allocation that failed in Assimp");
         if (!model.failure.empty())
-            throw InputError(path_, "content", "a model that Assimp reads", in_quotes(model.failure));
+            throw InputError(path_, "content", "a model that Assimp can read", in_quotes(model.failure));
         scene_.name = name;
         for (const ModelMaterial& material : model.materials) add_material(material);
         for (ModelMesh& mesh : model.meshes) add_mesh(std::move(mesh));

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "rasterizer/base/input_error.h"
+#include "scenes/files/strict_json.h"
 #include "scenes/nearest_name.h"
 
 namespace strata::scenes {
@@ -74,12 +75,6 @@ bool fill(const json& both, std::span<Real> values) {
     return true;
 }
 
-// dump recurses, so it must not be called for deeply nested values.
-std::string shown(const json& value) {
-    return value.is_structured() ? value.type_name()
-                                 : value.dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 64);
-}
-
 }  // namespace
 
 ordered_json JsonWriter::both(std::span<const float> values) { return decimal_and_bits(values); }
@@ -87,7 +82,8 @@ ordered_json JsonWriter::both(std::span<const double> values) { return decimal_a
 
 JsonReader::JsonReader(const json& value, const std::string& file, std::string pointer)
     : value_{value}, file_{file}, pointer_{std::move(pointer)} {
-    if (!value.is_object()) throw InputError(file, pointer_.empty() ? "/" : pointer_, "an object", shown(value));
+    if (!value.is_object())
+        throw InputError(file, pointer_.empty() ? "/" : pointer_, "an object", json_in_words(value));
 }
 
 const json& JsonReader::at(const std::string& key) {
@@ -99,7 +95,7 @@ const json& JsonReader::at(const std::string& key) {
 }
 
 void JsonReader::fail(const std::string& key, const std::string& expected) const {
-    throw InputError(file_, pointer_ + "/" + key, expected, shown(value_.at(key)));
+    throw InputError(file_, pointer_ + "/" + key, expected, json_in_words(value_.at(key)));
 }
 
 void JsonReader::end() const {
@@ -128,7 +124,7 @@ void JsonReader::text(const std::string& key, std::uint64_t& value) {
     text(key, digits);
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc{} || end != digits.data() + digits.size())
-        fail(key, "a whole number of 64 bits in a string");
+        fail(key, "a string with a whole number of 64 bits");
 }
 
 void JsonReader::texts(const std::string& key, std::vector<std::string>& values) {

@@ -11,17 +11,19 @@
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/system_error.h"
 #include "scenes/files/unfinished_files.h"
+#include "scenes/read_files.h"
 
 namespace strata::scenes {
 
 namespace {
 
-constexpr const char* not_empty = "is not empty; it has to be a new folder or an empty one";
+constexpr const char* not_empty = "is not empty: expected a new or an empty folder";
 
 }  // namespace
 
 FolderClaim::FolderClaim(const std::filesystem::path& folder) {
-    std::filesystem::create_directories(folder);
+    check_not_read(folder.string());
+    is_new_ = std::filesystem::create_directories(folder);
     // The absolute path stays valid if the current folder changes.
     file_ = std::filesystem::absolute(folder) / file_name;
     const int descriptor = ::open(file_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
@@ -43,11 +45,13 @@ void FolderClaim::give_up() noexcept {
     if (file_.empty()) return;
     std::error_code ignored;
     std::filesystem::remove(file_, ignored);
+    if (is_new_) std::filesystem::remove(file_.parent_path(), ignored);  // only if it is still empty
     if (slot_ >= 0) forget_unfinished_file(slot_);
     file_.clear();
 }
 
 void check_new_folder(const std::string& path) {
+    check_not_read(path);
     std::error_code error;
     if (std::filesystem::exists(path, error) &&
         !(std::filesystem::is_directory(path, error) && std::filesystem::is_empty(path, error)))

@@ -23,7 +23,8 @@ class FolderClaim {
 
   private:
     std::filesystem::path file_;
-    int slot_ = -1;  // in the table of unfinished files
+    int slot_ = -1;        // in the table of unfinished files
+    bool is_new_ = false;  // the folder was made here: it is removed with the claim if nothing was written into it
 };
 
 // InputError if the path exists and is not an empty folder. Call it before the work whose result is written there.

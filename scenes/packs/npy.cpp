@@ -78,13 +78,17 @@ struct Header {
 
 // `begin` is the beginning of the file, at least its header; `size` is that of the whole file.
 Header header_of(std::string_view begin, std::size_t size, const std::string& file) {
-    if (!begin.starts_with(npy_magic) || begin.size() < 12) throw InputError(file, "file", "a .npy file", "another");
+    if (!begin.starts_with(npy_magic) || begin.size() < 12)
+        throw InputError(file, "byte 0", "the header of a .npy file", "other bytes");
     const std::size_t length_bytes = begin[6] == 1 ? 2 : 4, before = 8 + length_bytes;
     const std::size_t length = little_endian(begin.substr(8, length_bytes));
-    if (length > begin.size() - before) throw InputError(file, "header", "a whole one", "an end within it");
+    if (length > begin.size() - before)
+        throw InputError(file, "header", fmt::format("{} bytes", length),
+                         fmt::format("{} bytes before the end of the file", begin.size() - before));
     const std::string_view text = begin.substr(before, length);
     if (entry(text, "fortran_order", ",}") != "False")
-        throw InputError(file, "fortran_order", "False (numpy.ascontiguousarray makes it so)", "another order");
+        throw InputError(file, "fortran_order", "False (numpy.ascontiguousarray makes such an array)",
+                         one_line(std::string{entry(text, "fortran_order", ",}")}));
     Header header{{.element = element_of(text, file), .shape = shape_of(text, file)}, before + length};
     const std::size_t count = header.array.count(), of_each = bytes_of(header.array.element);
     if (size - header.bytes != count * of_each)

@@ -125,7 +125,7 @@ class Arrays {
         NumberArray array = any(io, key);
         if (array.shape.empty()) return array;
         const bool fits = array.element == element && array.shape.size() == 2 && array.shape[1] == width;
-        if (!fits) throw InputError(file_, key, fmt::format("an array (n, {}) of {}", width, name(element)), "another");
+        if (!fits) fail(io, key, fmt::format("{} of shape (n, {})", name(element), width), array);
         return array;
     }
 
@@ -134,6 +134,13 @@ class Arrays {
         std::string name;
         io.text(key, name);
         return read_npy(path_inside(folder_, name, file_, io.pointer_of(key)));
+    }
+
+    // Reports the array that the manifest names.
+    [[noreturn]] void fail(JsonReader& io, const std::string& key, const std::string& expected,
+                           const NumberArray& found) const {
+        throw InputError(file_, io.pointer_of(key), "an array of " + expected,
+                         fmt::format("{} of shape ({})", name(found.element), fmt::join(found.shape, ", ")));
     }
 
   private:
@@ -184,7 +191,7 @@ void read_positions(JsonReader& io, Mesh& mesh, const Arrays& arrays) {
         mesh.positions.push_back({value(0), value(1), value(2)});
         mesh.w.push_back(value(3));
     }
-    if (array.element != Element::f4) io.fail("positions", "a file of an array (n, 3) or (n, 4) of f4");
+    if (array.element != Element::f4) arrays.fail(io, "positions", "f4 of shape (n, 3) or (n, 4)", array);
 }
 
 void read_mesh(JsonReader& io, Mesh& mesh, const Arrays& arrays) {
@@ -210,7 +217,7 @@ void read_texture(JsonReader& io, Texture& texture, const Arrays& arrays) {
     const bool fits = texels.element == Element::u1 && texels.shape.size() == 3 && texels.shape[2] == 4 &&
                       texels.shape[0] >= 1 && texels.shape[0] <= most_texels_a_side && texels.shape[1] >= 1 &&
                       texels.shape[1] <= most_texels_a_side;
-    if (!fits) io.fail("texels", "an array (rows, columns, 4) of u1, at most 16384 a side");
+    if (!fits) arrays.fail(io, "texels", "u1 of shape (rows, columns, 4), at most 16384 rows and columns", texels);
     texture.height = static_cast<int>(texels.shape[0]);
     texture.width = static_cast<int>(texels.shape[1]);
     texture.texels.assign(texels.bytes.begin(), texels.bytes.end());
@@ -238,10 +245,15 @@ json read_manifest(const std::string& folder) {
     const std::string file = folder + "/manifest.json";
     json manifest =
         parse_strict_json(read_text_file(file, most_manifest_bytes), file, "the manifest of a pack in JSON");
-    if (!manifest.is_object() || manifest.value("format", json{}) != "strata-pack")
-        throw InputError(file, "/format", "\"strata-pack\"", "something else");
-    if (manifest.value("version", json{}) != pack_version)
-        throw InputError(file, "/version", fmt::format("{}, the one that this program knows", pack_version), "another");
+    if (!manifest.is_object()) throw InputError(file, "/", "an object", json_in_words(manifest));
+    const auto expect = [&](const char* key, const json& expected) {
+        const auto found = manifest.find(key);
+        if (found == manifest.end() || *found != expected)
+            throw InputError(file, std::string{"/"} + key, expected.dump(),
+                             found == manifest.end() ? "no such key" : json_in_words(*found));
+    };
+    expect("format", "strata-pack");
+    expect("version", pack_version);
     return manifest;
 }
 
@@ -308,7 +320,8 @@ Scene load_pack(const std::string& path, const SceneOptions& options) {
     if (options.scene.value_or(0) != 0)
         throw InputError(path, "--scene", "0, the only one", std::to_string(*options.scene));
     if (options.color_space != color_space_of(folder, manifest))
-        throw InputError(path, "--color-space", "the pack's own: its colours are converted already", "the other one");
+        throw InputError(path, "--color-space", "the colour space in which the pack's colours are stored",
+                         "the other colour space");
     Scene scene = read_pack_scene(folder, manifest);
     for (Material& material : scene.list.materials) material.unlit |= !options.light;
     pipeline::check(scene.list);

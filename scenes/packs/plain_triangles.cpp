@@ -47,7 +47,7 @@ Mesh mesh_of_npy(const std::string& path, std::optional<pipeline::View>& view) {
     const std::size_t coordinates = coordinates_of(array);
     if (coordinates == 0)
         throw InputError(path, "array",
-                         "f4 of shape (triangles, 3, N), N 3 for x y z, 4 for x y z w, and 4 more with r g b a",
+                         "f4 of shape (triangles, 3, N): N = 3 is x y z, 4 is x y z w, 7 or 8 adds r g b a",
                          fmt::format("{} of shape ({})", name(array.element), fmt::join(shape, ", ")));
     Mesh mesh;
     const auto value = [&](std::size_t i) { return std::bit_cast<float>(array.word(i)); };
@@ -67,17 +67,17 @@ Mesh mesh_of_npy(const std::string& path, std::optional<pipeline::View>& view) {
 // A row of a list: `count` numbers in the range of `Number`.
 template <class Number>
 std::vector<Number> row_of(const json& row, std::size_t count, const std::string& file, const std::string& location) {
-    const auto fail = [&](const std::string& found) {
-        throw InputError(file, location, fmt::format("an array of {} numbers", count), found);
-    };
-    if (!row.is_array() || row.size() != count) fail(row.is_array() ? fmt::format("{}", row.size()) : row.type_name());
+    if (!row.is_array() || row.size() != count)
+        throw InputError(file, location, fmt::format("an array of {} numbers", count), json_in_words(row));
+    constexpr bool is_real = std::is_floating_point_v<Number>;
     std::vector<Number> numbers;
     for (const json& value : row) {
-        if constexpr (std::is_floating_point_v<Number>) {
-            if (!value.is_number() || !std::isfinite(value.get<float>())) fail("another value");
-        } else {
-            if (!value.is_number_unsigned() || value.get<std::uint64_t>() > UINT32_MAX) fail("another value");
-        }
+        const bool fits = is_real ? value.is_number() && std::isfinite(value.get<float>())
+                                  : value.is_number_unsigned() && value.get<std::uint64_t>() <= UINT32_MAX;
+        if (!fits)
+            throw InputError(file, fmt::format("{}/{}", location, numbers.size()),
+                             is_real ? "a number in the range of binary32" : "a whole number from 0 to 4294967295",
+                             json_in_words(value));
         numbers.push_back(value.get<Number>());
     }
     return numbers;
@@ -117,7 +117,7 @@ Mesh mesh_of_json(const std::string& path, std::optional<pipeline::View>& view) 
     else
         mesh.colors.assign(mesh.positions.size(), half_white);
     if (mesh.colors.size() != mesh.positions.size())
-        throw InputError(path, "/colors", fmt::format("{}, one a position", mesh.positions.size()),
+        throw InputError(path, "/colors", fmt::format("{} colours, one per position", mesh.positions.size()),
                          std::to_string(mesh.colors.size()));
     if (document.contains("indices"))
         for_each_row<std::uint32_t>(io, "indices", 3, path, [&](const std::vector<std::uint32_t>& corners) {

@@ -6,6 +6,7 @@
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/blended_materials.h"
+#include "scenes/memory_limit.h"
 #include "scenes/models/models.h"
 #include "scenes/nearest_name.h"
 #include "scenes/packs/pack_scene.h"
@@ -24,11 +25,23 @@ namespace {
 
 using Keys = std::vector<std::string_view>;
 
+// A typing error must not exhaust the memory: 10 million triangles of `random` take 960 MB of positions, colours and
+// indices.
+void check_triangles(const std::string& spec, std::uint64_t triangles) {
+    constexpr std::uint64_t bytes_of_a_triangle = 96;
+    check_memory_need(spec, "scene",
+                      {.kind = "triangles that take",
+                       .amount = std::to_string(triangles) + " triangles, which take",
+                       .bytes = triangles * bytes_of_a_triangle});
+}
+
 // The functions below give each parameter its range and default, as described in procedural_scenes(). A cell is two
 // triangles: 256 makes 4.2 million of them over the 32 patches.
 Scene teapot(const std::string& spec, const SceneOptions& options) {
     const Parameters parameters{spec, Keys{"tessellation"}};
-    return make_teapot(options, static_cast<int>(parameters.integer("tessellation", 1, 256, 16)));
+    const std::uint64_t cells = parameters.integer("tessellation", 1, 256, 16);
+    check_triangles(spec, 32 * 2 * cells * cells);
+    return make_teapot(options, static_cast<int>(cells));
 }
 
 Scene volume_beam(const std::string& spec, const SceneOptions& options) {
@@ -39,19 +52,22 @@ Scene volume_beam(const std::string& spec, const SceneOptions& options) {
     return make_volume_beam(options, slices, from_near ? BeamOrder::near : BeamOrder::far);
 }
 
-// 10 million triangles take 960 MB of positions, colours and indices; the limit prevents a typing error from exhausting
-// the memory.
 Scene random_soup(const std::string& spec, const SceneOptions& options) {
     const Parameters parameters{spec, Keys{"seed", "triangles"}};
     const auto triangles = static_cast<std::uint32_t>(parameters.integer("triangles", 0, 10'000'000, 1000));
+    check_triangles(spec, triangles);
     return make_random_soup(options, parameters.integer("seed", 0, UINT64_MAX, 1), triangles);
 }
 
 Scene plane_stack(const std::string& spec, const SceneOptions& options) {
     const Parameters parameters{spec, Keys{"count", "gap", "cells"}};
-    return make_plane_stack(options, {.count = static_cast<int>(parameters.integer("count", 1, 64, 6)),
-                                      .cells = static_cast<int>(parameters.integer("cells", 1, 256, 8)),
-                                      .gap = static_cast<double>(parameters.integer("gap", 0, 1u << 20, 1u << 16))});
+    const PlaneStack stack{.count = static_cast<int>(parameters.integer("count", 1, 64, 6)),
+                           .cells = static_cast<int>(parameters.integer("cells", 1, 256, 8)),
+                           .gap = static_cast<double>(parameters.integer("gap", 0, 1u << 20, 1u << 16))};
+    // Plane i has i cells more on each side.
+    const auto most_cells = static_cast<std::uint64_t>(stack.cells + stack.count);
+    check_triangles(spec, 2 * static_cast<std::uint64_t>(stack.count) * most_cells * most_cells);
+    return make_plane_stack(options, stack);
 }
 
 // The list of keys is empty: every parameter is rejected.

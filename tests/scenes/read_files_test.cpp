@@ -29,6 +29,12 @@ TEST_CASE("a file that was read is replaced by a library and not by a process th
     CHECK(read_text_file(file) == "old");
     CHECK_NOTHROW(write_file(other, "new"));
     CHECK(read_text_file(other) == "new");
+    note_read_pack(folder.path() + "/pack");
+    std::filesystem::create_directories(folder.path() + "/pack/inner");
+    std::filesystem::create_directories(folder.path() + "/packs");
+    for (const char* name : {"/pack/new", "/pack/inner/new", "/packs/../pack/new"})
+        CHECK_THROWS_WITH(write_file(folder.path() + name, "new"), Catch::Contains("is in a pack that this command"));
+    CHECK_NOTHROW(write_file(folder.path() + "/packs/new", "new"));
     std::filesystem::create_symlink(file, link);
     CHECK_NOTHROW(write_file(link, "new"));
     CHECK(read_text_file(file) == "old");

@@ -49,13 +49,13 @@ class Fields {
 std::vector<std::uint32_t> indices_of(const Fields& its, const Triangles& triangles) {
     const std::size_t count = triangles.positions.count;
     if (triangles.indices.empty()) {
-        if (count % 3 != 0) its.fail("positions.count", "three a triangle", std::to_string(count));
+        if (count % 3 != 0) its.fail("positions.count", "three per triangle", std::to_string(count));
         std::vector<std::uint32_t> all(count);
         for (std::size_t i = 0; i < count; ++i) all[i] = static_cast<std::uint32_t>(i);
         return all;
     }
     if (triangles.indices.size() % 3 != 0)
-        its.fail("indices", "three a triangle", std::to_string(triangles.indices.size()));
+        its.fail("indices", "three per triangle", std::to_string(triangles.indices.size()));
     for (std::size_t i = 0; i < triangles.indices.size(); ++i)
         if (triangles.indices[i] >= count)
             its.fail("indices[" + std::to_string(i) + "]", "less than " + std::to_string(count),

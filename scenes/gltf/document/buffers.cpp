@@ -2,6 +2,7 @@
 #include "scenes/gltf/document/buffers.h"
 
 #include "scenes/gltf/document/uri.h"
+#include "scenes/memory_limit.h"
 
 namespace strata::scenes {
 namespace {
@@ -18,18 +19,21 @@ void check_media_type(const Resource& resource, const FileLocation& location) {
 
 }  // namespace
 
-void Budget::pay_elements(std::uint64_t count, const FileLocation& location) {
+void Budget::pay_elements(std::uint64_t count, std::uint64_t bytes_each, const FileLocation& location) {
     if (count > elements_)
-        location.fail("VALUE_NOT_IN_RANGE",
-                      "meshes of at most 2^22 vertices and indices, and 16 more for each byte of the file",
-                      "more with the " + std::to_string(count) + " of this primitive");
+        location.fail("VALUE_NOT_IN_RANGE", "at most 2^22 vertices and indices, plus 16 per byte of the file",
+                      "more: this primitive has " + std::to_string(count));
     elements_ -= count;
+    check_memory_need(location.file, location.pointer,
+                      {.kind = "elements that take",
+                       .amount = std::to_string(count) + " of them, which take",
+                       .bytes = count * bytes_each});
 }
 
 void Budget::pay_texels(std::uint64_t count, const FileLocation& location) {
     if (count > texels_)
-        location.fail("VALUE_NOT_IN_RANGE", "textures of at most 2^28 texels together",
-                      "more with the " + std::to_string(count) + " of this image");
+        location.fail("VALUE_NOT_IN_RANGE", "at most 2^28 texels in all textures together",
+                      "more: this image has " + std::to_string(count));
     texels_ -= count;
 }
 
@@ -57,16 +61,18 @@ Bytes Buffers::read(std::size_t index) {
         bytes = held_[index] = std::move(resource.bytes);
     } else {
         if (index != 0)
-            at.location().fail("BUFFER_NON_FIRST_GLB", "a uri, for only the first buffer can be the BIN chunk", "none");
+            at.location().fail("BUFFER_NON_FIRST_GLB", "a uri, because only the first buffer can be the BIN chunk",
+                               "none");
         if (!document_.bin)
-            at.location().fail("BUFFER_MISSING_GLB_DATA", "a uri, for the file has no BIN chunk", "none");
+            at.location().fail("BUFFER_MISSING_GLB_DATA", "a uri, because the file has no BIN chunk", "none");
         bytes = *document_.bin;
     }
     if (bytes.size() < declared)
         at.location()
             .under("byteLength")
             .fail(at.has("uri") ? "BUFFER_EXTERNAL_BYTELENGTH_MISMATCH" : "BUFFER_EMBEDDED_BYTELENGTH_MISMATCH",
-                  "at most the " + std::to_string(bytes.size()) + " bytes that are there", std::to_string(declared));
+                  "at most " + std::to_string(bytes.size()) + ", the number of bytes in the buffer",
+                  std::to_string(declared));
     return bytes.first(declared);
 }
 

@@ -33,7 +33,8 @@ class Budget {
     Budget(std::uint64_t elements, std::uint64_t texels) : elements_{elements}, texels_{texels} {}
 
     void allow_elements(std::uint64_t more) { elements_ += more; }
-    void pay_elements(std::uint64_t count, const FileLocation& location);
+    // `bytes_each`: of memory, for an element. InputError also if they do not fit into memory (memory_limit.h).
+    void pay_elements(std::uint64_t count, std::uint64_t bytes_each, const FileLocation& location);
     void pay_texels(std::uint64_t count, const FileLocation& location);
 
   private:

@@ -32,19 +32,20 @@ struct Chunk {
 class ChunkReader {
   public:
     ChunkReader(Bytes bytes, const std::string& file) : bytes_{bytes}, file_{file} {
-        if (bytes.size() < header_size) fail(0, "GLB_UNEXPECTED_END_OF_HEADER", "12 bytes of header", bytes.size());
+        if (bytes.size() < header_size) fail(0, "GLB_UNEXPECTED_END_OF_HEADER", "a header of 12 bytes", bytes.size());
         if (word(bytes, 4) != 2) fail(4, "GLB_INVALID_VERSION", "version 2", word(bytes, 4));
         const std::uint32_t length = word(bytes, 8);
         if (length < header_size + chunk_header_size)
             fail(8, "GLB_LENGTH_TOO_SMALL", "a length of at least 20", length);
         if (length != bytes.size())
-            fail(8, "GLB_LENGTH_MISMATCH", "the file's length " + std::to_string(bytes.size()), length);
+            fail(8, "GLB_LENGTH_MISMATCH", "the file's length, " + std::to_string(bytes.size()), length);
     }
     [[nodiscard]] bool at_end() const { return at_ == bytes_.size(); }
 
     Chunk next() {
         const std::size_t left = bytes_.size() - at_;
-        if (left < chunk_header_size) fail(at_, "GLB_UNEXPECTED_END_OF_CHUNK_HEADER", "8 bytes of chunk header", left);
+        if (left < chunk_header_size)
+            fail(at_, "GLB_UNEXPECTED_END_OF_CHUNK_HEADER", "a chunk header of 8 bytes", left);
         const std::uint32_t length = word(bytes_, at_), type = word(bytes_, at_ + 4);
         if (length > left - chunk_header_size)
             fail(at_, "GLB_CHUNK_TOO_BIG", "a chunk of at most " + std::to_string(left - chunk_header_size) + " bytes",
@@ -74,7 +75,7 @@ class ChunkReader {
             fail(at_, "GLB_CHUNK_LENGTH_UNALIGNED",
                  "a chunk length that is a multiple of 4 (gltf-transform copy IN.glb OUT.glb mends the file)", length);
         warnings_.push_back("byte " + std::to_string(at_) + ": the chunk's length " + std::to_string(length) +
-                            " is no multiple of 4; the chunk is read as it stands");
+                            " is not a multiple of 4; the chunk is read nevertheless");
         return leads_on(bare) ? bare : padded;
     }
 
@@ -87,15 +88,16 @@ class ChunkReader {
 Container split_glb(Bytes bytes, const std::string& file) {
     ChunkReader reader{bytes, file};
     const Chunk first = reader.next();
-    if (first.type != json_chunk) reader.fail(16, "GLB_UNEXPECTED_FIRST_CHUNK", "a JSON chunk first", first.type);
-    if (first.data.empty()) reader.fail(12, "GLB_EMPTY_CHUNK", "JSON text", 0);
+    if (first.type != json_chunk)
+        reader.fail(16, "GLB_UNEXPECTED_FIRST_CHUNK", "1313821514, the type of a JSON chunk", first.type);
+    if (first.data.empty()) reader.fail(12, "GLB_EMPTY_CHUNK", "a JSON chunk of at least 1 byte", 0);
     Container container{.json = text(first.data)};
     for (bool is_second = true; !reader.at_end(); is_second = false) {
         const Chunk chunk = reader.next();
         if (chunk.type == json_chunk) reader.fail(16, "GLB_DUPLICATE_CHUNK", "one JSON chunk", 2);
         if (chunk.type != bin_chunk) continue;  // "clients MUST ignore chunks with unknown types"
         if (container.bin) reader.fail(16, "GLB_DUPLICATE_CHUNK", "at most one BIN chunk", 2);
-        if (!is_second) reader.fail(16, "GLB_UNEXPECTED_BIN_CHUNK", "the BIN chunk as the second one", 3);
+        if (!is_second) reader.fail(16, "GLB_UNEXPECTED_BIN_CHUNK", "the BIN chunk as chunk 2", 3);
         container.bin = chunk.data;
     }
     container.warnings = reader.warnings();
@@ -106,14 +108,14 @@ Container split_glb(Bytes bytes, const std::string& file) {
 
 Container split_container(Bytes bytes, const std::string& file) {
     const FileLocation start{file, "byte 0"};
-    if (bytes.empty()) start.fail("INVALID_JSON", "a glTF file", "an empty one");
+    if (bytes.empty()) start.fail("INVALID_JSON", "a glTF file", "an empty file");
     const bool is_glb = bytes.size() >= 4 && word(bytes, 0) == magic;
     const auto first = std::to_integer<unsigned char>(bytes[0]);
     // Whitespace and a byte order mark (it begins with 0xef) may precede the first brace; the parser checks the rest.
     const bool may_be_json =
         first == '{' || first == ' ' || first == '\t' || first == '\n' || first == '\r' || first == 0xef;
     if (!is_glb && !may_be_json)
-        start.fail("GLB_INVALID_MAGIC", "glTF, JSON text or a .glb",
+        start.fail("GLB_INVALID_MAGIC", "glTF: JSON text or a GLB header",
                    in_quotes(text(bytes.first(bytes.size() < 4 ? bytes.size() : 4))));
     const Container container = is_glb ? split_glb(bytes, file) : Container{.json = text(bytes)};
     if (container.json.size() > max_json_bytes)

@@ -3,6 +3,8 @@
 
 #include <set>
 
+#include "scenes/memory_limit.h"
+
 namespace strata::scenes {
 namespace {
 
@@ -73,6 +75,7 @@ Json parse_json(std::string_view text, const std::string& file) {
     text = text.substr(0, last == text.npos ? 0 : last + 1);
     if (const std::size_t at = text.find('\0'); at != text.npos)
         location.fail("INVALID_JSON", "JSON", "a NUL at byte " + std::to_string(at + 1));
+    check_json_memory(file, text.size());
     Guard guard{location};
     Json::sax_parse(text.begin(), text.end(), &guard);
     return Json::parse(text.begin(), text.end());

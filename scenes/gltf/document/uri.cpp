@@ -7,6 +7,7 @@
 
 #include "scenes/inside_folder.h"
 #include "scenes/lfs_pointer.h"
+#include "scenes/memory_limit.h"
 #include "scenes/read_files.h"
 
 namespace strata::scenes {
@@ -27,7 +28,8 @@ int base64_value(char c) {  // -1: not in the alphabet
 std::vector<std::byte> decode_base64(std::string_view text, const FileLocation& location) {
     for (int i = 0; i < 2 && !text.empty() && text.back() == '='; ++i) text.remove_suffix(1);
     if (text.size() % 4 == 1)
-        location.fail("INVALID_URI", "whole base64 groups", std::to_string(text.size()) + " characters");
+        location.fail("INVALID_URI", "base64 text in groups of 4 characters",
+                      std::to_string(text.size()) + " characters");
     std::vector<std::byte> bytes;
     bytes.reserve(text.size() / 4 * 3 + 2);
     std::uint32_t bits = 0;
@@ -104,14 +106,16 @@ std::vector<std::byte> read_file(const fs::path& path, const FileLocation& locat
     if (!fs::is_regular_file(path, error))
         location.fail(
             "FILE_NOT_FOUND", "a file",
-            fs::is_directory(path, error) ? "a folder" : in_quotes(path.filename().string()) + ", which is none");
+            fs::is_directory(path, error) ? "a folder" : in_quotes(path.filename().string()) + ", which is no file");
     const std::uintmax_t size = fs::file_size(path, error);
     if (error || size > max_file_bytes)
-        location.fail("IO_ERROR", "a file below 4 GiB", error ? error.message() : std::to_string(size));
+        location.fail("IO_ERROR", "a file of less than 4 GiB",
+                      error ? error.message() : std::to_string(size) + " bytes");
+    check_file_memory(path.string(), size);
     std::vector<std::byte> bytes(size);
     std::ifstream stream(path, std::ios::binary);
     if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
-        location.fail("IO_ERROR", "a readable file", "one that cannot be read");
+        location.fail("IO_ERROR", "a readable file", "a file that cannot be read");
     note_read_file(path);
     if (is_lfs_pointer({reinterpret_cast<const char*>(bytes.data()), bytes.size()}))
         location.fail("IO_ERROR", "the file itself",
@@ -122,12 +126,13 @@ std::vector<std::byte> read_file(const fs::path& path, const FileLocation& locat
 Resource read_uri(std::string_view uri, const std::optional<fs::path>& folder, const FileLocation& location) {
     if (uri.starts_with("data:")) return read_data_uri(uri, location);
     const fs::path relative = relative_path(uri, location);
-    if (!folder) location.fail("FILE_NOT_FOUND", "a data: uri, for this scene has no folder", in_quotes(uri));
+    if (!folder)
+        location.fail("FILE_NOT_FOUND", "a data: uri, because a scene in memory has no folder", in_quotes(uri));
     const InsideFolder found = inside_folder(*folder, relative);
     if (found.status == InsideFolder::PathStatus::nothing)
         location.fail("FILE_NOT_FOUND", "a file in the scene's folder", in_quotes(uri));
     if (found.status != InsideFolder::PathStatus::inside)
-        location.fail("NON_RELATIVE_URI", "a file in the scene's folder", "a link that leaves it");
+        location.fail("NON_RELATIVE_URI", "a file in the scene's folder", "a link to a file outside of it");
     return {"", read_file(found.path, location)};
 }
 

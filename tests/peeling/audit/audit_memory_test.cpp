@@ -171,7 +171,7 @@ TEST_CASE("if one pixel's fragments exceed the memory the message names the pixe
         const Algorithm& algorithm = *find_algorithm(name);
         const std::uint64_t enough = fragments * 52 * 2;
         const std::string expected =
-            "strata: --fragment-memory: expected at least " + std::to_string(enough) +
+            "audit: --fragment-memory: expected at least " + std::to_string(enough) +
             " bytes for the audit of pixel (5, 3), which has 300 fragments, or --no-audit, found 16384";
         INFO(name);
         CHECK(message(scene, algorithm, 16384) == expected);
@@ -219,7 +219,7 @@ TEST_CASE("capturing all fragments of a frame is rejected in advance if they exc
     };
     CHECK(fragments(std::uint64_t{18} << 20) == 270000);
     CHECK_THROWS_WITH(fragments(0),
-                      "strata: --fragment-memory: expected at least 17280000 bytes for the frame's 270000 fragments "
+                      "audit: --fragment-memory: expected at least 17280000 bytes for the frame's 270000 fragments "
                       "in total, found 16777216");
 }
 
@@ -232,7 +232,7 @@ TEST_CASE("what does not fit of samples that load one another is an error becaus
     CHECK(message_of(1300, LoadedSample::own) == "");
     CHECK(message_of(1 << 20, LoadedSample::zero) == "");
     CHECK(message_of(1300, LoadedSample::zero) ==
-          "strata: --fragment-memory: expected at least 2600 bytes for the audit of fragments that are composited more "
+          "audit: --fragment-memory: expected at least 2600 bytes for the audit of fragments that are composited more "
           "than once, because samples that load one another are audited together, or --no-audit, or a smaller --size, "
           "found 1300");
 }

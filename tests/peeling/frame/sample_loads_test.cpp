@@ -281,7 +281,7 @@ TEST_CASE("the audit of samples that load one another needs memory for the trace
     CHECK(all.order_errors == 0u);
     CHECK(all.fragments_max == 33);
     CHECK_THROWS_WITH(audited(enough - 1, true),
-                      "strata: --fragment-memory: expected at least 17301504 bytes for the audit of 540672 fragments, "
+                      "audit: --fragment-memory: expected at least 17301504 bytes for the audit of 540672 fragments, "
                       "because samples that load one another are audited together, or --no-audit, or a smaller --size, "
                       "found 17301503");
     CHECK(audited(0, false).fragments_max == 0);

@@ -75,7 +75,8 @@ TEST_CASE("a camera file is read from disk and one that is missing or a folder o
     write_file(folder / "long.json", std::string(2'000'000, ' '));
     CHECK_THROWS_WITH(load_camera(folder / "none.json", 1), Catch::Contains("none.json: no such file"));
     CHECK_THROWS_AS(load_camera(folder.path, 1), InputError);
-    CHECK_THROWS_WITH(load_camera(folder / "long.json", 1), Catch::Contains("the limit is 1048576"));
+    CHECK_THROWS_WITH(load_camera(folder / "long.json", 1),
+                      Catch::Contains("size: expected at most 1048576 bytes, found "));
 }
 
 TEST_CASE("every fault of a camera file gives one error message with its JSON pointer and the expected value") {
@@ -88,14 +89,15 @@ TEST_CASE("every fault of a camera file gives one error message with its JSON po
         return "accepted";
     };
     CHECK(message("{") == "c: byte 2: expected a camera in JSON, found a syntax error");
-    CHECK(message("[]") == "c: /: expected an object, found array");
+    CHECK(message("[]") == "c: /: expected an object, found an array of 0");
     CHECK(message("{\"near\":1e999}") == "c: /: expected a camera in JSON, found a number out of range");
     CHECK(message(with(good, "fovy_degrees", "fovy_degree")) ==
           "c: /: expected only the keys eye, center, up, fovy_degrees, near, far, view, projection, "
           "found 'fovy_degree' (did you mean 'fovy_degrees'?)");
     CHECK(message(with(good, ",\"near\":1.9", "")) == "c: /: expected the key 'near', found none");
-    CHECK(message(with(good, "[0,0.5,3]", "[0,0.5]")) == "c: /eye: expected an array of 3 numbers, found 2 elements");
-    CHECK(message(with(good, "[0,0.5,3]", "7")) == "c: /eye: expected an array of 3 numbers, found number");
+    CHECK(message(with(good, "[0,0.5,3]", "[0,0.5]")) ==
+          "c: /eye: expected an array of 3 numbers, found an array of 2");
+    CHECK(message(with(good, "[0,0.5,3]", "7")) == "c: /eye: expected an array of 3 numbers, found 7");
     CHECK_THAT(message(with(good, "0.5", "\"0.5\"")), Catch::StartsWith("c: /eye/1: expected a finite number"));
     CHECK_THAT(message(with(good, "0.5", "\"0x-1p0\"")), Catch::StartsWith("c: /eye/1: expected a finite number"));
     CHECK_THAT(message(with(good, "0.5", "\"0x1p0 \"")), Catch::StartsWith("c: /eye/1: expected a finite number"));
@@ -107,11 +109,11 @@ TEST_CASE("every fault of a camera file gives one error message with its JSON po
     CHECK(message(with(good, "1.9", "7")) ==
           "c: /far: expected a distance beyond near, 7, found \"0x1.0cccccccccccdp+2\"");
     CHECK(message(with(good, "[0,0.5,3]", "[0,0,0]")) ==
-          "c: /center: expected a point that is not the eye, found array");
+          "c: /center: expected a point that differs from eye, found the same point");
     CHECK(message(with(good, "[0,1,0]", "[0,1,6]")) ==
-          "c: /up: expected a direction across the line of sight, found array");
+          "c: /up: expected a direction that is not parallel to the line of sight, found a parallel or zero vector");
     CHECK(message(with(good, "[0,1,0]", "[0,0,0]")) ==
-          "c: /up: expected a direction across the line of sight, found array");
+          "c: /up: expected a direction that is not parallel to the line of sight, found a parallel or zero vector");
     CHECK(message("{\"view\":[1]}") == "c: /: expected the key 'projection', found none");
     CHECK_THAT(message(with(good, "\"far\"", "\"view\"")),
                Catch::StartsWith("c: /: expected only the keys view, projection"));

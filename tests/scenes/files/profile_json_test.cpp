@@ -99,7 +99,7 @@ TEST_CASE("a value of the wrong type or out of range is rejected with file and J
     CHECK(error_of(changed(R"("has_d16": null)")) == "my.json: /has_d16: expected true or false, found null");
     CHECK(error_of(changed(R"("raster": {"subpixel_bits": 6})")) ==
           "my.json: /raster/subpixel_bits: expected a number from 4 to 12 in steps of 4, found 6");
-    CHECK(error_of(changed(R"("raster": [])")) == "my.json: /raster: expected an object, found array");
+    CHECK(error_of(changed(R"("raster": [])")) == "my.json: /raster: expected an object, found an array of 0");
     CHECK(error_of(changed(R"("denormals": 1)")) == "my.json: /denormals: expected one of flush, keep, found 1");
 }
 
@@ -175,16 +175,16 @@ TEST_CASE("a profile lists its open fields and they are read back") {
           "my.json: /open/0: expected a key of a profile, found 'raster.snapp' (did you mean 'raster.snap'?)");
     CHECK(error_of(changed(R"("open": [1])")) == "my.json: /open/0: expected a key of a profile, found 1");
     CHECK(error_of(changed(R"("open": {})")) ==
-          "my.json: /open: expected an array of keys of a profile, such as raster.snap, found object");
+          "my.json: /open: expected an array of keys of a profile, such as raster.snap, found an object");
 }
 
 TEST_CASE("text that is not a JSON object is rejected with its position") {
     CHECK(error_of("") == "my.json: byte 1: expected a profile in JSON, found a syntax error");
     CHECK(error_of("{\"name\": }") == "my.json: byte 10: expected a profile in JSON, found a syntax error");
-    CHECK(error_of("[1]") == "my.json: /: expected an object, found array");
+    CHECK(error_of("[1]") == "my.json: /: expected an object, found an array of 1");
     CHECK(error_of("{\"name\": 1e999}") == "my.json: /: expected a profile in JSON, found a number out of range");
     CHECK(error_of(std::string(100000, '[')) ==
-          "my.json: /: expected at most 64 levels of arrays and objects, found more");
+          "my.json: /: expected at most 64 levels of arrays and objects, found deeper nesting");
 }
 
 TEST_CASE("a profile is loaded by name or from a file and for an unknown name the nearest is suggested") {

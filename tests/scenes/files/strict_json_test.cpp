@@ -44,10 +44,10 @@ std::string diagonal_camera(const std::string& entry) {
 
 TEST_CASE("a key may occur in several objects and a duplicate in one is rejected with its JSON pointer") {
     CHECK(refusal_of(R"({"a":1,"b":{"a":2},"c":[{"a":1},{"a":2}]})") == "");
-    CHECK(refusal_of(R"({"a":1,"b":2,"a":1})") == "f: /a: expected each key once, found this one twice");
-    CHECK(refusal_of(R"({"a":{"b":1,"c":{},"b":2}})") == "f: /a/b: expected each key once, found this one twice");
-    CHECK(refusal_of(R"([{"x":1},{"x":1,"x":1}])") == "f: /x: expected each key once, found this one twice");
-    CHECK(refusal_of(R"({"\u0061":1,"a":1})") == "f: /a: expected each key once, found this one twice");
+    CHECK(refusal_of(R"({"a":1,"b":2,"a":1})") == "f: /a: expected each key once, found this key twice");
+    CHECK(refusal_of(R"({"a":{"b":1,"c":{},"b":2}})") == "f: /a/b: expected each key once, found this key twice");
+    CHECK(refusal_of(R"([{"x":1},{"x":1,"x":1}])") == "f: /x: expected each key once, found this key twice");
+    CHECK(refusal_of(R"({"\u0061":1,"a":1})") == "f: /a: expected each key once, found this key twice");
     CHECK(parse_strict_json(R"({"a":[1,{"b":null}]})", "f", "x") == nlohmann::json{{"a", {1, {{"b", nullptr}}}}});
 }
 
@@ -56,7 +56,7 @@ TEST_CASE(
     CHECK(refusal_of("{\"a\":}") == "f: byte 6: expected a thing, found a syntax error");
     CHECK(refusal_of("[1e999]") == "f: /: expected a thing, found a number out of range");
     CHECK(refusal_of(std::string(64, '[') + std::string(64, ']')) == "");
-    const std::string deep = "f: /: expected at most 64 levels of arrays and objects, found more";
+    const std::string deep = "f: /: expected at most 64 levels of arrays and objects, found deeper nesting";
     CHECK(refusal_of(std::string(66, '[') + std::string(66, ']')) == deep);
     CHECK(refusal_of(std::string(1000000, '[')) == deep);
 }
@@ -64,25 +64,25 @@ TEST_CASE(
 TEST_CASE("camera and profile files with duplicate keys are rejected") {
     CHECK(camera_refusal(
               R"({"eye":[0,0,5],"center":[0,0,0],"up":[0,1,0],"fovy_degrees":45,"near":1,"far":10,"far":20})") ==
-          "c: /far: expected each key once, found this one twice");
+          "c: /far: expected each key once, found this key twice");
     CHECK(sentence_about([] {
               static_cast<void>(strata::scenes::parse_profile(
                   R"({"base":"ideal","name":"x","raster":{"subpixel_bits":4,"subpixel_bits":8}})", "p"));
-          }) == "p: /raster/subpixel_bits: expected each key once, found this one twice");
+          }) == "p: /raster/subpixel_bits: expected each key once, found this key twice");
 }
 
 TEST_CASE("singular matrices and entries beyond 2^64 are rejected and extreme but invertible ones are accepted") {
     for (const char* entry : {"1", "-1", "1e-15", "18446744073709551616", "\"0x1p-1000\""})
         CHECK(camera_refusal(diagonal_camera(entry)) == "");
     CHECK(camera_refusal(diagonal_camera("0")) ==
-          "c: /view: expected a matrix that can be inverted, found one that cannot");
+          "c: /view: expected a matrix that can be inverted, found a singular matrix");
     for (const char* entry : {"1e308", "18446744073709555712", "-1e20"})
         CHECK(camera_refusal(diagonal_camera(entry))
                   .starts_with("c: /view/0: expected a number from -2^64 to 2^64, found "));
     // Two equal rows.
     std::string singular = diagonal_camera("1");
     singular.replace(singular.find("[1,0,0,0,0,1"), 12, "[1,0,0,0,1,0");
-    CHECK(camera_refusal(singular) == "c: /view: expected a matrix that can be inverted, found one that cannot");
+    CHECK(camera_refusal(singular) == "c: /view: expected a matrix that can be inverted, found a singular matrix");
     // Invertible, but elimination needs a row swap because the first pivot is zero.
     CHECK(camera_refusal(
               R"({"view":[0,1,0,0, 1,0,0,0, 0,0,0,1, 0,0,1,0],"projection":[0,1,0,0, 1,0,0,0, 0,0,0,1, 0,0,1,0]})") ==

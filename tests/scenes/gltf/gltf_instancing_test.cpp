@@ -77,8 +77,9 @@ TEST_CASE("an instancing with inconsistent accessors is rejected with its JSON p
         INFO(refusal(whole.as_glb()));
         CHECK(refusal(whole.as_glb()).find(words) != std::string::npos);
     };
-    says("/attributes/SCALE: expected an accessor of a format for SCALE", "VEC4", f32, 2, "SCALE");
-    says("/attributes/ROTATION: expected an accessor of a format for ROTATION", "VEC4", u8, 2, "ROTATION");
+    says("/attributes/SCALE: expected an accessor whose type and componentType SCALE allows", "VEC4", f32, 2, "SCALE");
+    says("/attributes/ROTATION: expected an accessor whose type and componentType ROTATION allows", "VEC4", u8, 2,
+         "ROTATION");
     says("/attributes/SCALE: expected as many elements as the other attributes: 2, found 3", "VEC3", f32, 3, "SCALE");
     GltfFile none;
     const int moved = none.accessor("VEC3", f32, 1, std::vector<float>{1, 2, 3});

@@ -115,7 +115,7 @@ TEST_CASE("vertex colours of a PLY file are drawn and a colour with alpha below 
 TEST_CASE("a file that is not a model or of another format is rejected with an error message") {
     const strata::test::OwnFolder folder;
     CHECK_THROWS_WITH(load_scene(put(folder, "a.ply", "ply\nnothing"), {}),
-                      Contains("a.ply: content: expected a model that Assimp reads"));
+                      Contains("a.ply: content: expected a model that Assimp can read"));
     CHECK_THROWS_WITH(load_scene(put(folder, "b.obj",
                                      "version https://git-lfs.github.com/spec/v1\noid sha256:" + std::string(64, 'a') +
                                          "\nsize 12\n"),
@@ -160,21 +160,21 @@ TEST_CASE("a PLY or OFF file that claims more than its bytes hold is refused bef
     };
     const std::string bytes = std::to_string(ply.size() + 9);
     CHECK(message("a.ply", with(ply, "vertex 3", "vertex 2000000000")) ==
-          "a.ply: line 3: expected a count of at most the file's " + bytes + " bytes, found '2000000000'");
+          "a.ply: line 3: expected a count of at most " + bytes + ", the file's bytes, found '2000000000'");
     CHECK_THAT(message("b.ply", "ply\nformat ascii 1.0\nelement vertex\n"),
                Contains("line 3: ") && Contains("found none"));
     CHECK(message("c.ply", with(ply, "vertex 3", "vertex 6")) ==
-          "c.ply: element vertex: expected 6 of them, found values for 4");
+          "c.ply: element vertex: expected 6 elements, found the values of 4");
     CHECK(message("d.ply", with(ply, "\n3 0 1 2", "\n2000000000 0 1 2")) ==
-          "d.ply: element face: expected 1 of them, found values for 0");
+          "d.ply: element face: expected 1 elements, found the values of 0");
     const std::string header = with(ply.substr(0, ply.find("-1 -1")), "ascii", "binary_big_endian");
     const std::string vertices(36, '\0');
     const std::string face = header + vertices + std::string{'\3', 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 2};
     CHECK(message("e.ply", face) == "none");
     CHECK(message("f.ply", with(face, "uchar int", "int int")) ==
-          "f.ply: element face: expected 1 of them, found values for 0");
+          "f.ply: element face: expected 1 elements, found the values of 0");
     CHECK(message("g.ply", face.substr(0, face.size() - 1)) ==
-          "g.ply: element face: expected 1 of them, found values for 0");
+          "g.ply: element face: expected 1 elements, found the values of 0");
     CHECK_THAT(message("a.off", with(off, "3 1 0", "3 99999999 0")), Contains("faces: ") && Contains("'99999999'"));
     CHECK_THAT(message("b.off", with(off, "3 1 0", "# 9\n-1 1 0")), Contains("vertices: ") && Contains("'-1'"));
 }

@@ -57,7 +57,7 @@ TEST_CASE("a file that is not such an array is rejected with its position") {
         CHECK_THROWS_WITH(static_cast<void>(parse_npy(bytes, "x.npy")), Contains(message));
     };
     const std::string four(4, '\0');
-    fails("PNG", "x.npy: file: expected a .npy file");
+    fails("PNG", "x.npy: byte 0: expected the header of a .npy file");
     fails(npy_by_hand("{'descr': '>f4', 'fortran_order': False, 'shape': (1,), }", four, 118), "x.npy: descr:");
     fails(npy_by_hand("{'descr': '<f8', 'fortran_order': False, 'shape': (1,), }", four, 118), "x.npy: descr:");
     fails(npy_by_hand("{'descr': '<f4', 'fortran_order': True, 'shape': (1,), }", four, 118), "fortran_order");

@@ -94,7 +94,8 @@ TEST_CASE("a pack is rejected where it is damaged or where something missing is 
     fails("strata-pack", "strata-park", "/format");
     fails("scene/mesh.000.positions.npy", "../positions.npy",
           "/scene/meshes/0/positions: expected a file in the folder ");
-    fails("scene/mesh.000.positions.npy", "scene/mesh.000.indices.npy", "positions: expected an array (n, 3) of f4");
+    fails("scene/mesh.000.positions.npy", "scene/mesh.000.indices.npy",
+          "positions: expected an array of f4 of shape (n, 3)");
     fails("\"texture\":-1", "\"texture\":3", "texture");
     fails("\"mesh\":0", "\"mesh\":5", "mesh");
 }

@@ -54,7 +54,7 @@ TEST_CASE("triangles are read from a .npy file with their numbers unchanged") {
     CHECK(load_scene(written(folder, "c.npy", triangles_npy({0, 3, 3})), {}).bounds.is_empty());
     for (const std::vector<std::size_t>& shape : {std::vector<std::size_t>{3, 3}, {1, 3, 5}, {1, 3, 6}, {1, 4, 3}, {9}})
         CHECK_THROWS_WITH(load_scene(written(folder, "d.npy", triangles_npy(shape)), {}),
-                          Catch::Contains("d.npy: array: expected f4 of shape (triangles, 3, N), N 3 for x y z"));
+                          Catch::Contains("d.npy: array: expected f4 of shape (triangles, 3, N): N = 3 is x y z"));
 }
 
 TEST_CASE("triangles with w are in clip space and drawn unchanged unless a view is named") {
@@ -97,12 +97,14 @@ TEST_CASE("triangles are read from a .json file with a view if it has one") {
     };
     fails("[]", "x.json: /: expected an object");
     fails("{}", "the key 'positions'");
-    fails(R"({"positions": [[0, 0]]})", "x.json: /positions/0: expected an array of 3 numbers, found 2");
-    fails(R"({"positions": [[0, 0, 1e39]]})", "/positions/0");
-    fails(R"({"positions": [[0, 0, "1"]]})", "/positions/0");
-    fails(R"({"positions": [[0, 0, 1]], "colors": []})", "/colors: expected 1, one a position, found 0");
+    fails(R"({"positions": [[0, 0]]})", "x.json: /positions/0: expected an array of 3 numbers, found an array of 2");
+    fails(R"({"positions": [[0, 0, 1e39]]})",
+          "/positions/0/2: expected a number in the range of binary32, found 1e+39");
+    fails(R"({"positions": [[0, 0, "1"]]})", "/positions/0/2: expected a number in the range of binary32, found \"1\"");
+    fails(R"({"positions": [[0, 0, 1]], "colors": []})", "/colors: expected 1 colours, one per position, found 0");
     fails(R"({"positions": [[0, 0, 1]], "indices": [[0, 1, 2]]})", "indices");
-    fails(R"({"positions": [[0, 0, 1]], "indices": [[0, -1, 2]]})", "/indices/0");
+    fails(R"({"positions": [[0, 0, 1]], "indices": [[0, -1, 2]]})",
+          "/indices/0/1: expected a whole number from 0 to 4294967295, found -1");
     fails(R"({"positions": [], "colours": []})", "only the keys");
-    fails(R"({"positions": [], "view": [1]})", "/view: expected an array of 16 numbers, found 1");
+    fails(R"({"positions": [], "view": [1]})", "/view: expected an array of 16 numbers, found an array of 1");
 }

@@ -99,7 +99,7 @@ TEST_CASE("an invalid field of triangles is rejected by name and nothing is adde
                    t.positions.count = 5;
                    t.colors.count = 5;
                }),
-               Contains("triangles 'both': positions.count: expected three a triangle, found 5"));
+               Contains("triangles 'both': positions.count: expected three per triangle, found 5"));
     CHECK_THAT(message_for([](Triangles& t) { t.positions.count = 0; }),
                Contains("positions.count: expected at least 3, found 0"));
     CHECK_THAT(message_for([](Triangles& t) { t.positions.first = nullptr; }),
@@ -113,7 +113,7 @@ TEST_CASE("an invalid field of triangles is rejected by name and nothing is adde
     CHECK_THAT(message_for([&](Triangles& t) { t.indices = wrong; }),
                Contains("indices[2]: expected less than 6, found 6"));
     CHECK_THAT(message_for([&](Triangles& t) { t.indices = two; }),
-               Contains("indices: expected three a triangle, found 2"));
+               Contains("indices: expected three per triangle, found 2"));
     CHECK_THAT(message_for([](Triangles& t) { t.color[3] = NAN; }), Contains("color[3]: expected a finite number"));
     CHECK_THAT(message_for([](Triangles& t) { t.model.emplace().fill(INFINITY); }),
                Contains("model[0]: expected a finite number"));

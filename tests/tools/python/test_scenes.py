@@ -57,12 +57,12 @@ def test_a_camera_sees_what_its_matrices_see():
 
 @pytest.mark.parametrize("arguments, said", [
     (dict(positions=CORNERS.astype(str)), "triangles: positions: expected numbers, found <U"),
-    (dict(positions=CORNERS[:5]), "positions.count: expected three a triangle, found 5"),
+    (dict(positions=CORNERS[:5]), "positions.count: expected three per triangle, found 5"),
     (dict(positions=CORNERS[:, :2]), "positions: expected an array of float32 and shape"),
     (dict(positions=CORNERS, colors=COLORS[:3]), "colors.count: expected 6 or none, found 3"),
     (dict(positions=CORNERS, indices=[0, 1, 6]), r"indices\[2\]: expected less than 6, found 6"),
     (dict(positions=CORNERS, indices=[0, 1, -1]), "indices: expected whole numbers"),
-    (dict(positions=CORNERS, indices=[0, 1]), "indices: expected three a triangle, found 2"),
+    (dict(positions=CORNERS, indices=[0, 1]), "indices: expected three per triangle, found 2"),
     (dict(positions=CORNERS, color=(1, 1, 1, float("nan"))), r"color\[3\]: expected a finite number"),
 ])
 def test_triangles_that_cannot_be_are_named(arguments, said):
