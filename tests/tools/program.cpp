@@ -115,11 +115,11 @@ CommandResult run_strata(const Folder& folder, const std::vector<std::string>& w
 
 // Started through a small process, because a fork of this one, which is linked with all libraries, would count their
 // pages, too.
-std::uint64_t peak_of_strata(const Folder& folder, const std::vector<std::string>& words) {
+std::uint64_t peak_of_strata(const Folder& folder, const std::vector<std::string>& words, int status) {
     std::vector<std::string> all{PEAK_OF, STRATA_PROGRAM};
     all.insert(all.end(), words.begin(), words.end());
     const CommandResult ended = run(folder, all, {});
-    return ended.status == 0 ? std::stoull(lines_of(ended.err).back()) * 1024 : 0;
+    return ended.status == status ? std::stoull(lines_of(ended.err).back()) * 1024 : 0;
 }
 
 CommandResult shell(const Folder& folder, const std::string& line, const Setting& setting) {

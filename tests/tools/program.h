@@ -51,7 +51,7 @@ struct Setting {
 [[nodiscard]] CommandResult run_strata(const Folder& folder, const std::vector<std::string>& words,
                                        const Setting& setting = {});
 // The peak of strata's resident set in bytes; 0 if its exit status is not 0.
-[[nodiscard]] std::uint64_t peak_of_strata(const Folder& folder, const std::vector<std::string>& words);
+[[nodiscard]] std::uint64_t peak_of_strata(const Folder& folder, const std::vector<std::string>& words, int status = 0);
 [[nodiscard]] CommandResult shell(const Folder& folder, const std::string& line, const Setting& setting = {});
 
 [[nodiscard]] std::string content_of(const std::string& path);

@@ -63,7 +63,7 @@ def resolved(build, folder, words, profile, driver, shading):
             continue
         picture = folder / f"{name}.exr"
         packs.run([build / "strata", "render", *words, "--samples", SAMPLES, *SHADINGS[shading], "--profile", profile, "--algorithm", name, "--no-audit", "-q", "-o", picture])
-        said = packs.run([build / "strata", "compare", picture, candidate / name / "picture.npy", "--exact"], allowed=(0, 1))
+        said = packs.run([build / "strata", "compare", picture, candidate / name / "picture.npy"], allowed=(0, 1))
         wrong += not said.startswith("equal")
     return wrong
 

@@ -14,6 +14,7 @@
 #include "tools/strata/messages.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/option.h"
+#include "tools/strata/options/option_readers.h"
 #include "tools/strata/options/pack_options.h"
 #include "tools/strata/progress.h"
 #include "tools/strata/render/memory.h"
@@ -98,20 +99,17 @@ int write_suite(const GoldenOptions& options) {
     return 0;
 }
 
-// Rejects options of a scene with --suite, because the suite's scenes have their own.
-void check_alone(const CLI::App& app) {
-    for (const CLI::Option* option : app.get_options())
-        if (const std::string name = option->get_name(); option->count() > 0 && !is_message_option(*option) &&
-                                                         name != "--suite" && name != "--exr" && name != "--output" &&
-                                                         name != "SCENE")
-            throw CLI::ValidationError("--suite excludes " + name + ": its scenes bring their own options");
+// A pack to check has its own options, as have the scenes of the suite.
+void refuse_without_effect(const CLI::App& app, const GoldenOptions& options) {
+    if (!options.check.empty())
+        refuse_others(app, {"--check", "--simd", "--max-memory"}, "with --check");
+    else if (options.suite)
+        refuse_others(app, {"--suite", "--exr", "--output", "SCENE"},
+                      "with --suite, whose scenes have their own options");
 }
 
 int golden(GoldenOptions& options) {
-    if (!options.check.empty()) {
-        if (!options.run.scene.empty()) throw CLI::ValidationError("--check takes no scene: the pack holds it");
-        return check(options.check, options.run.simd);
-    }
+    if (!options.check.empty()) return check(options.check, options.run.simd);
     if (options.run.scene.empty() && !options.suite)
         throw CLI::ValidationError("SCENE is missing; --check PACK needs none");
     if (options.run.output.empty()) throw CLI::ValidationError("-o is missing: the folder for the pack");
@@ -159,7 +157,7 @@ Command add_golden(CLI::App& root) {
         "Exit status: 0 done, 1 --check found differences, 2 bad input or usage, 3 the system failed, 130 "
         "interrupted.");
     return {app, [app, options] {
-                if (options->suite) check_alone(*app);
+                refuse_without_effect(*app, *options);
                 return golden(*options);
             }};
 }

@@ -68,11 +68,11 @@ void say(const std::string& begin, std::string_view message) {
 void add_message_options(CLI::App& app) {
     app.add_flag_callback(
            "-q,--quiet", [] { wanted().amount = Amount::quiet; },
-           "no progress, no warnings and no notes: errors and the result alone")
+           "print errors and the result only: no progress, no warnings, no notes")
         ->trigger_on_parse();
     app.add_flag_callback(
            "-v,--verbose", [] { wanted().amount = Amount::verbose; },
-           "say on standard error what is done, which files are written and how long it takes")
+           "print steps, files written and times on standard error")
         ->trigger_on_parse();
     const std::vector<Choice<ColorMode>> choices{
         {"auto", ColorMode::automatic}, {"always", ColorMode::always}, {"never", ColorMode::never}};

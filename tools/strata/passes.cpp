@@ -141,6 +141,15 @@ std::set<std::string> listed_passes(const std::filesystem::path& folder) {
     return files;
 }
 
+// A folder under the name of a file would end the run when some files are written.
+void check_no_folders(const std::filesystem::path& place) {
+    for (const auto& entry : std::filesystem::directory_iterator(place)) {
+        const std::string name = entry.path().filename().string();
+        const bool is_ours = is_pass_file(name) || name.ends_with("contact.png") || name.ends_with("passes.json");
+        if (is_ours && entry.is_directory()) throw InputError(entry.path().string(), "is a folder, not a file");
+    }
+}
+
 // Removes the passes of an earlier run that this one has not written again, so that a series is of one run.
 void remove_earlier(const std::filesystem::path& folder, const std::set<std::string>& earlier) {
     const std::set<std::string> now = listed_passes(folder);
@@ -158,6 +167,7 @@ int passes(PassesOptions& command) {
     const Session session = open_session(options);
     check_literal_memory(options, session);
     const scenes::FolderClaim claim{options.output};
+    check_no_folders(options.output);
     const std::set<std::string> earlier = listed_passes(options.output);
     int status = 2;
     PlainPage page{"Passes of " + options.scene, canonical_command("passes", options, options.algorithms)};

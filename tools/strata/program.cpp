@@ -22,6 +22,7 @@
 #include "rasterizer/base/input_error.h"
 #include "rasterizer/base/parallel.h"
 #include "scenes/files/atomic_file.h"
+#include "scenes/files/system_error.h"
 #include "scenes/files/unfinished_files.h"
 #include "scenes/gltf/document/input_errors.h"
 #include "scenes/read_files.h"
@@ -49,8 +50,8 @@ int fail(const std::string& message, Exit status) {
 void warn_of_threads() {
     const ThreadShortage threads = thread_shortage();
     if (threads.available < threads.requested)
-        say_warning(
-            fmt::format("--threads: the system refused {} threads; {} worked", threads.requested, threads.available));
+        say_warning(fmt::format("--threads: the system did not start {} threads; {} threads ran", threads.requested,
+                                threads.available));
 }
 
 using Clock = std::chrono::steady_clock;
@@ -59,7 +60,7 @@ using Clock = std::chrono::steady_clock;
 int fail_of(const std::vector<std::string>& messages) {
     constexpr std::size_t most = 20;
     for (std::size_t i = 0; i < std::min(messages.size(), most); ++i) say_error(messages[i]);
-    if (messages.size() > most) say_error(std::to_string(messages.size() - most) + " more faults are not shown");
+    if (messages.size() > most) say_error(std::to_string(messages.size() - most) + " more errors are not shown");
     return bad_input;
 }
 
@@ -263,11 +264,29 @@ int run(const std::vector<std::string>& words, const std::vector<NamedCommand>& 
     return parse_and_run(root, commands, words);
 }
 
+// "PATH: cannot create directories: Not a directory" of "filesystem error: cannot create directories: Not a directory
+// [PATH]", the standard library's text.
+std::string in_words(const std::filesystem::filesystem_error& error) {
+    constexpr std::string_view head = "filesystem error: ";
+    const std::string said = error.what();
+    const std::size_t begin = said.starts_with(head) ? head.size() : 0;
+    return error.path1().string() + ": " + said.substr(begin, said.find(" [", begin) - begin);
+}
+
 // Opens a standard stream that is closed, in the direction in which it is not used: else the next file that is opened
 // would take its number, and a result written to standard output would be lost without an error.
 void open_closed_streams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (::fcntl(stream, F_GETFD) == -1) ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+// A program whose stack cannot grow ends with a signal, without a word.
+void check_stack() {
+    constexpr rlim_t least = rlim_t{512} << 10;
+    rlimit stack{};
+    if (getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur < least)
+        throw SystemError("the stack", fmt::format("grow beyond {} KiB", stack.rlim_cur >> 10),
+                          fmt::format("strata needs {} KiB (ulimit -s 8192 is the usual limit)", least >> 10));
 }
 
 }  // namespace
@@ -279,6 +298,7 @@ int run_program(int count, char** words, const std::vector<NamedCommand>& experi
     scenes::protect_read_files();
     scenes::report_written_files([](const std::string& path) { say_detail("wrote " + path); });
     try {
+        check_stack();
         const int status = run({words + std::min(count, 1), words + count}, experiments);
         warn_of_threads();
         tell_effort(start);
@@ -291,6 +311,8 @@ int run_program(int count, char** words, const std::vector<NamedCommand>& experi
         return fail(error.what(), bad_input);
     } catch (const std::bad_alloc&) {
         return fail("not enough memory", system_failed);
+    } catch (const std::filesystem::filesystem_error& error) {
+        return fail(in_words(error), system_failed);
     } catch (const std::exception& error) {  // SystemError, file systems, streams
         return fail(error.what(), system_failed);
     }

@@ -68,13 +68,13 @@ class Recorded {
         const std::string line = recorded_command(file_);
         const auto words = words_behind_strata(line);
         if (!words) fail("a command of strata", line);
-        if (words->front() != verb) fail("a command of strata " + verb, "one of strata " + words->front());
+        if (words->front() != verb) fail("a command of strata " + verb, "a command of strata " + words->front());
         Words chosen{scene((*words)[1])};
         const auto known = options_of_pictures();
         for (std::size_t i = 2; i < words->size(); ++i) {
             const std::string& name = (*words)[i];
             const auto option = known.find(name);
-            if (option == known.end()) fail("options that choose what is drawn, and no other word", "'" + name + "'");
+            if (option == known.end()) fail("options that choose what is drawn and nothing else", "'" + name + "'");
             if (option->second && ++i == words->size()) fail("a value of " + name, "none");
             chosen.push_back(option->second ? name + "=" + value(name, (*words)[i]) : name);
         }
@@ -100,7 +100,8 @@ class Recorded {
 
     [[nodiscard]] std::string path_of(const std::string& name) const {
         if (scenes::inside_folder(folder_, name).status == scenes::InsideFolder::PathStatus::nothing)
-            fail("'" + name + "' in the folder " + folder_ + " (--files-in FOLDER names another one)", "none");
+            fail("the file '" + name + "' in the folder " + folder_ + " (--files-in FOLDER names another folder)",
+                 "no such file");
         return scenes::path_inside(folder_, name, file_, "strata:command");
     }
 
@@ -139,7 +140,8 @@ std::string recorded_command(const std::string& file) {
     const scenes::Attributes attributes = scenes::read_attributes(file);
     const auto found = attributes.find("command");
     if (found == attributes.end())
-        throw InputError(file, "strata:command", "a picture that strata wrote", "none of its commands in it");
+        throw InputError(file, "strata:command", "a picture with the command that strata recorded in it",
+                         "no such command");
     return found->second;
 }
 
@@ -147,8 +149,7 @@ void expand_from(Words& words) {
     if (words.front() != "render" && words.front() != "layers") return;
     const std::string given_folder = take(words, files_in), file = take(words, from);
     if (file.empty()) {
-        if (!given_folder.empty())
-            throw CLI::ValidationError(std::string(files_in), "expected --from beside it, found none");
+        if (!given_folder.empty()) throw CLI::ValidationError(std::string(files_in) + " is valid only with --from");
         return;
     }
     const std::string own_folder = std::filesystem::path(file).parent_path().string();

@@ -132,9 +132,9 @@ std::string describe(const scenes::Scene& scene) {
 void warn_of_empty(const std::string& path, const scenes::Scene& scene) {
     if (drawn(scene.list, std::nullopt).triangles > 0) return;
     say_warning(
-        path + ": nothing would be drawn, for the scene has no triangles; " +
+        path + ": nothing would be drawn, because the scene has no triangles; " +
         (scene.scene_count > 1
-             ? fmt::format("--scene 0 to {} chooses another one of the file", scene.scene_count - 1)
+             ? fmt::format("--scene N, 0 to {}, chooses another scene of the file", scene.scene_count - 1)
              : std::string("export its meshes as triangles, or try a built-in scene: strata list scenes shows them")));
 }
 

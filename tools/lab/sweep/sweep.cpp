@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <map>
 
 #include "rasterizer/base/input_error.h"
@@ -31,6 +32,21 @@ void check_is_file(const std::string& path) {
         throw InputError(path, "file", "a file in its own place", "a link, a pipe, a device or a folder");
 }
 
+// Results are replaced only by a run of the same command: its rows have the keys of the description.
+void check_is_own(const Sweep& sweep, const std::string& path) {
+    std::ifstream file(path);
+    std::string line;
+    if (!std::getline(file, line) || sweep.rows == 0) return;
+    const auto row = nlohmann::json::parse(line, nullptr, false);
+    const ordered_json own = sweep.description(0);
+    for (const auto& [key, value] : own.items())
+        if (!row.is_object() || !row.contains(key))
+            throw InputError(
+                path, "line 1",
+                "a row of strata " + sweep.name + ", which this command replaces (-o names another folder)",
+                "another text");
+}
+
 int exit_status(const Sweep& sweep, const Lines& lines) {
     if (sweep.has_failed && sweep.has_failed(lines)) return 1;
     const auto is_refused = [](const ordered_json& line) { return line["outcome"] == "refused"; };
@@ -52,6 +68,7 @@ int run_sweep(const Sweep& sweep, const std::string& folder, const Shard& shard)
     if (!folder.empty()) {
         std::filesystem::create_directories(folder);
         for (const std::string& path : {results, csv, times}) check_is_file(path);
+        check_is_own(sweep, results);
     }
     Lines lines, timings;
     {

@@ -7,6 +7,7 @@
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/text_file.h"
+#include "scenes/memory_limit.h"
 #include "tools/oracle/picture/numbers_file.h"
 
 namespace strata::oracle {
@@ -121,7 +122,28 @@ std::size_t own_row_bytes(const RawLayout& layout) noexcept {
     return is_packed ? 4 * width : width * static_cast<std::size_t>(layout.channels) * bytes_of(layout.code);
 }
 
+namespace {
+
+std::size_t row_stride(const RawLayout& layout) noexcept {
+    return layout.row_bytes == 0 ? own_row_bytes(layout) : layout.row_bytes;
+}
+
+// The last row may end without its padding.
+void check_size(std::size_t bytes, const std::string& thing, const RawLayout& layout) {
+    const auto rows = static_cast<std::size_t>(layout.height);
+    const std::size_t stride = row_stride(layout), whole = layout.offset + rows * stride;
+    if (bytes != whole - stride + own_row_bytes(layout) && bytes != whole)
+        throw InputError(
+            thing, "size",
+            fmt::format("{} bytes ({}{} rows of {} bytes)", whole,
+                        layout.offset == 0 ? "" : fmt::format("offset {}, ", layout.offset), layout.height, stride),
+            fmt::format("{} bytes", bytes));
+}
+
+}  // namespace
+
 TargetImage raw_target(std::string_view bytes, const std::string& thing, const RawLayout& layout) {
+    check_size(bytes.size(), thing, layout);
     TargetImage target{.name = layout.meaning == Meaning::depth ? "depth" : "color",
                        .meaning = layout.meaning,
                        .code = layout.code,
@@ -129,15 +151,7 @@ TargetImage raw_target(std::string_view bytes, const std::string& thing, const R
                        .height = layout.height,
                        .channels = layout.channels};
     const auto rows = static_cast<std::size_t>(layout.height);
-    const std::size_t row = own_row_bytes(layout), stride = layout.row_bytes == 0 ? row : layout.row_bytes;
-    // The last row may end without its padding.
-    const std::size_t least = layout.offset + (rows - 1) * stride + row, whole = layout.offset + rows * stride;
-    if (bytes.size() != least && bytes.size() != whole)
-        throw InputError(
-            thing, "size",
-            fmt::format("{} bytes ({}{} rows of {} bytes)", whole,
-                        layout.offset == 0 ? "" : fmt::format("offset {}, ", layout.offset), layout.height, stride),
-            fmt::format("{} bytes", bytes.size()));
+    const std::size_t row = own_row_bytes(layout), stride = row_stride(layout);
     const std::size_t codes = static_cast<std::size_t>(layout.width) * static_cast<std::size_t>(layout.channels);
     target.codes.resize(codes * rows);
     for (std::size_t y = 0; y < rows; ++y)
@@ -146,7 +160,13 @@ TargetImage raw_target(std::string_view bytes, const std::string& thing, const R
     return target;
 }
 
+// The size is compared first, so that no memory is allocated for a file of another size.
 TargetImage read_raw(const std::string& path, const RawLayout& layout) {
+    constexpr std::size_t bytes_of_lfs_pointer = 512;
+    static_cast<void>(scenes::read_begin_of_file(path, bytes_of_lfs_pointer));
+    check_size(scenes::size_of_file(path, max_bytes), path, layout);
+    scenes::check_pixels(path, static_cast<std::uint64_t>(layout.width), static_cast<std::uint64_t>(layout.height),
+                         sizeof(std::uint32_t) * static_cast<std::uint64_t>(layout.channels));
     return raw_target(scenes::read_text_file(path, max_bytes), path, layout);
 }
 

@@ -8,7 +8,9 @@
 
 #include "peeling/registry.h"
 #include "rasterizer/base/input_error.h"
+#include "scenes/file_ending.h"
 #include "scenes/files/atomic_file.h"
+#include "scenes/files/image_decode.h"
 #include "scenes/files/image_io.h"
 #include "scenes/memory_limit.h"
 #include "scenes/packs/pack_scene.h"
@@ -23,6 +25,7 @@
 #include "tools/strata/messages.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/option.h"
+#include "tools/strata/options/option_readers.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/report/plain_page.h"
 #include "tools/strata/table.h"
@@ -134,9 +137,6 @@ bool is_linear(const CompareOptions& options) {
 }
 
 int compare_folders(const CompareOptions& options) {
-    if (!options.background.empty())
-        throw CLI::ValidationError(
-            "--background goes with a picture as the candidate; of a folder compare its picture.npy");
     auto reference = chosen(oracle::expected_pictures(options.reference), options.algorithm);
     const auto candidate = chosen(oracle::candidate_pictures(options.reference, options.candidate), options.algorithm);
     check_targets(options.tolerances, names_of_targets(reference));
@@ -232,11 +232,28 @@ void check_for_scene(const CLI::App& app, const std::vector<CLI::Option*>& of_pi
         options.background = {color[0], color[1], color[2]};
         if (color[3] < 1) options.background.push_back(color[3]);
     }
-    if (is_scene(options.reference)) return;
-    for (const CLI::Option* option : app.get_options())
-        if (option->count() > 0 && option->get_name() != "--background" && !is_message_option(*option) &&
-            std::ranges::find(of_pictures, option) == of_pictures.end())
-            throw CLI::ValidationError(option->get_name() + " goes with a scene as the reference, not with a picture");
+    const bool is_pack_of_folder =
+        scenes::is_pack(options.reference) && std::filesystem::is_directory(options.candidate);
+    if (is_scene(options.reference) && !is_pack_of_folder) return;
+    std::vector<std::string> names;
+    for (const CLI::Option* option : of_pictures)
+        if (const std::string name = option->get_name();
+            is_pack_of_folder || (name != "--exact" && name != "--algorithm"))
+            names.push_back(name);
+    names.emplace_back(is_pack_of_folder ? "--color-space" : "--background");
+    refuse_others(app, std::vector<std::string_view>{names.begin(), names.end()},
+                  is_pack_of_folder ? "on a pack and a folder of pictures" : "if the reference is a picture");
+}
+
+// Files whose ending says what they hold have no other layout.
+void check_layout(const CompareOptions& options) {
+    const auto is_raw = [](const std::string& file) {
+        return !scenes::has_ending(file, ".exr") && !scenes::has_ending(file, ".npy") &&
+               scenes::reader_of(file) == nullptr;
+    };
+    const bool reads_reference = !is_scene(options.reference);
+    if (options.layout && !is_raw(options.candidate) && !(reads_reference && is_raw(options.reference)))
+        throw CLI::ValidationError("--layout has no effect: no file of raw numbers is compared");
 }
 
 }  // namespace
@@ -245,6 +262,7 @@ Command add_compare(CLI::App& root) {
     auto* app = root.add_subcommand("compare", "show how a picture differs from a reference, by kinds of mistakes");
     const auto options = std::make_shared<CompareOptions>();
     options->run.takes_size_of_picture = true;
+    options->run.app = app;
     app->add_option_function<std::string>(
            "REFERENCE",
            [options](const std::string& reference) {
@@ -312,6 +330,7 @@ Command add_compare(CLI::App& root) {
         "interrupted.");
     return {app, [app, options, of_pictures] {
                 check_for_scene(*app, of_pictures, *options);
+                check_layout(*options);
                 return compare(*options);
             }};
 }

@@ -27,6 +27,7 @@
 #include "tools/strata/diagnose/mistakes.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
+#include "tools/strata/options/option_readers.h"
 #include "tools/strata/options/pack_options.h"
 #include "tools/strata/progress.h"
 #include "tools/strata/recorded_command.h"
@@ -259,20 +260,21 @@ int diagnose_several(const DiagnoseOptions& options, const std::vector<std::stri
 
 // Rejects options that describe a scene, because every pack of the folder contains its own state.
 void check_several(const CLI::App& app) {
-    const std::vector<std::string> fitting{"SCENE",      "CANDIDATE",         "--algorithm", "--limit", "--tolerance",
-                                           "--channels", "--candidate-alpha", "--layout",    "--json"};
-    for (const CLI::Option* option : app.get_options())
-        if (option->count() > 0 && std::ranges::find(fitting, option->get_name()) == fitting.end() &&
-            !is_message_option(*option))
-            throw CLI::ValidationError(option->get_name() + " goes with one scene, not with a folder of packs");
+    refuse_others(app,
+                  {"SCENE", "CANDIDATE", "--algorithm", "--limit", "--tolerance", "--channels", "--candidate-alpha",
+                   "--layout", "--json", "--max-memory"},
+                  "on a folder of packs, which have their own options");
 }
 
 int diagnose(const CLI::App& app, const DiagnoseOptions& options) {
-    if (options.mistakes.list) return show_mistakes(options.mistakes, options.json);
+    if (options.mistakes.list) {
+        refuse_others(app, {"--list", "--suite", "--output", "--json"}, "with --list");
+        return show_mistakes(options.mistakes, options.json);
+    }
     for (const char* name : {"SCENE", "CANDIDATE"})
         if (app.count(name) == 0) throw CLI::RequiredError(name);
     for (const char* name : {"--suite", "--output"})
-        if (app.count(name) > 0) throw CLI::ValidationError(std::string(name) + " goes with --list alone");
+        if (app.count(name) > 0) throw CLI::ValidationError(std::string(name) + " has no effect without --list");
     const std::vector<std::string> packs = packs_in(options.run.scene);
     check_outputs({{"--report", options.report, {".html"}}});
     if (packs.empty()) return diagnose_one(options);

@@ -16,6 +16,7 @@
 #include "scenes/files/unfinished_files.h"
 #include "scenes/packs/new_folder.h"
 #include "scenes/packs/pack_scene.h"
+#include "scenes/read_files.h"
 #include "tools/strata/command.h"
 #include "tools/strata/compare/tolerances.h"
 #include "tools/strata/diagnose/shell_command.h"
@@ -132,6 +133,7 @@ int reduce(const ReduceOptions& options) {
     if (!options.ending.starts_with('.') || options.ending.find('/') != std::string::npos ||
         shell_word(options.ending) != options.ending)
         throw CLI::ValidationError("--picture", "expected an ending such as .exr, found '" + options.ending + "'");
+    scenes::note_read_pack(scenes::pack_folder(options.pack));
     scenes::check_new_folder(options.output);
     oracle::Golden scene = oracle::read_pack(options.pack);
     if (!options.algorithm.empty())

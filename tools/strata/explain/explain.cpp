@@ -87,9 +87,9 @@ std::string explained(ExplainOptions& options, const ExplainOne& explain_one) {
 
 int explain(ExplainOptions& options) {
     if (!options.candidate.empty()) {
-        if (!options.svg.empty()) throw CLI::ValidationError("--svg", "expected no --candidate beside it");
+        if (!options.svg.empty()) throw CLI::ValidationError("--svg has no effect with --candidate");
         const auto [x, y] = options.pixel.value_or(Pixel{});
-        if (!options.pixel) throw CLI::ValidationError("--candidate", "expected --pixel X,Y beside it");
+        if (!options.pixel) throw CLI::ValidationError("--candidate needs --pixel X,Y");
         return explain_candidate({options.run, options.candidate, x, y, options.json});
     }
     complete(options.run);
@@ -99,11 +99,11 @@ int explain(ExplainOptions& options) {
     const int x = pixel.x, y = pixel.y;
     const peeling::RenderOptions& render = options.run.render;
     if (!options.pixel || x >= render.width || y >= render.height)
-        throw CLI::ValidationError("--pixel must be a pixel from 0,0 to " + std::to_string(render.width - 1) + "," +
-                                   std::to_string(render.height - 1) +
-                                   (options.pixel ? ", not " + std::to_string(x) + "," + std::to_string(y) : ""));
+        throw CLI::ValidationError(
+            "--pixel", fmt::format("expected a pixel from 0,0 to {},{}, found {}", render.width - 1, render.height - 1,
+                                   options.pixel ? fmt::format("{},{}", x, y) : "none"));
     if (options.run.samples > 1 && !options.run.sample) {
-        if (!options.svg.empty()) throw CLI::ValidationError("--svg goes with one sample: --sample N");
+        if (!options.svg.empty()) throw CLI::ValidationError("--svg shows one sample: add --sample N");
         print(explained<oracle::SampledHistory>(options, [&](const oracle::RunInput& input, const auto& algorithm) {
             return oracle::explain_samples(input, algorithm, x, y);
         }));

@@ -2,11 +2,13 @@
 // is not the default, in a fixed order; stored in picture files.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "scenes/packs/pack_scene.h"
 #include "tools/strata/options/algorithm_options.h"
 #include "tools/strata/options/choices.h"
+#include "tools/strata/options/option_readers.h"
 #include "tools/strata/options/options.h"
 #include "tools/strata/options/shell_words.h"
 
@@ -96,7 +98,16 @@ void add_comparison(Words& words, const peeling::RenderOptions& render) {
     if (offset.enabled) add(words, "--polygon-offset", fmt::format("{},{}", offset.factor, offset.units));
 }
 
-void add_device(Words& words, const RunOptions& options) {
+using Algorithms = std::vector<const peeling::Algorithm*>;
+
+// Options that no algorithm of the command reads are left out: the command would be refused with them.
+bool is_read(const char* option, const RunOptions& options, const Algorithms& algorithms) {
+    return std::ranges::any_of(algorithms, [&](const peeling::Algorithm* algorithm) {
+        return reads(*algorithm, option, options.render.algorithm);
+    });
+}
+
+void add_device(Words& words, const RunOptions& options, const Algorithms& algorithms) {
     const peeling::RenderOptions& render = options.render;
     if (render.depth) add(words, "--depth-format", name_of(depth_formats, *render.depth));
     if (render.depth_path) add(words, "--depth-path", name_of(depth_paths(), *render.depth_path));
@@ -113,17 +124,21 @@ void add_device(Words& words, const RunOptions& options) {
     if (render.color_format) add(words, "--color-format", name_of(color_formats, *render.color_format));
     if (render.result_format) add(words, "--result-format", name_of(color_formats, *render.result_format));
     if (render.back_format) add(words, "--back-format", name_of(color_formats, *render.back_format));
-    if (render.average_count != pipeline::Format::r16f)
+    if (render.average_count != pipeline::Format::r16f && is_read("--average-count", options, algorithms))
         add(words, "--average-count", name_of(count_formats, render.average_count));
     if (render.termination != pipeline::Termination{}) add(words, "--termination", to_text(render.termination));
     if (render.max_passes != 0) add(words, "--max-passes", fmt::format("{}", render.max_passes));
-    for (const std::string& word : words_of(render.algorithm)) words.push_back(word);
+    const Words of_algorithms = words_of(render.algorithm);
+    for (std::size_t i = 0; i < of_algorithms.size(); i += 2)
+        if (is_read(of_algorithms[i].c_str(), options, algorithms)) add(words, of_algorithms[i], of_algorithms[i + 1]);
 }
 
-void add_order(Words& words, const peeling::RenderOptions& render) {
-    if (render.formulation != pipeline::Formulation::resolved)
+void add_order(Words& words, const RunOptions& options, const Algorithms& algorithms) {
+    const peeling::RenderOptions& render = options.render;
+    if (render.formulation != pipeline::Formulation::resolved && is_read("--formulation", options, algorithms))
         add(words, "--formulation", name_of(formulations, render.formulation));
-    if (!render.sorted.empty()) add(words, "--sorted", fmt::format("{}", fmt::join(render.sorted, ",")));
+    if (!render.sorted.empty() && is_read("--sorted", options, algorithms))
+        add(words, "--sorted", fmt::format("{}", fmt::join(render.sorted, ",")));
     if (render.sort.rule != peeling::SortRule::none) add(words, "--sort", to_text(render.sort));
 }
 
@@ -133,8 +148,7 @@ std::string canonical_command(const std::string& verb, const RunOptions& options
     return canonical_command(verb, options, std::vector{&algorithm});
 }
 
-std::string canonical_command(const std::string& verb, const RunOptions& options,
-                              const std::vector<const peeling::Algorithm*>& algorithms) {
+std::string canonical_command(const std::string& verb, const RunOptions& options, const Algorithms& algorithms) {
     const bool is_procedural = scenes::is_procedural(options.scene);
     Words words{"strata", verb, is_procedural ? options.scene : file_name(scenes::pack_folder(options.scene))};
     std::string names;
@@ -146,7 +160,7 @@ std::string canonical_command(const std::string& verb, const RunOptions& options
     if (options.origin) add(words, "--origin", name_of(origins, *options.origin));
     add_scene(words, options);
     add_view(words, options);
-    add_device(words, options);
+    add_device(words, options, algorithms);
     if (options.samples != 1) add(words, "--samples", fmt::format("{}", options.samples));
     if (options.shades_pixels) add(words, "--shading", "pixel");
     if (options.shades_pixels && options.render.raster.interpolation == rasterizer::Interpolation::centroid)
@@ -162,7 +176,7 @@ std::string canonical_command(const std::string& verb, const RunOptions& options
     if (coverage.mask != 0xff) add(words, "--sample-mask", fmt::format("{}", coverage.mask));
     if (options.resolve != pipeline::Resolve::box) add(words, "--resolve", name_of(resolves, options.resolve));
     if (options.sample) add(words, "--sample", fmt::format("{}", *options.sample));
-    add_order(words, options.render);
+    add_order(words, options, algorithms);
     std::string line;
     for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
     return line;

@@ -8,6 +8,7 @@
 #include "scenes/files/atomic_file.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/names.h"
+#include "tools/strata/options/option_readers.h"
 #include "tools/strata/options/pack_options.h"
 #include "tools/strata/options/parse.h"
 
@@ -129,20 +130,21 @@ void check_samples(const RunOptions& options) {
     const bool loads_others =
         options.load_sample != pipeline::LoadedSample::own || options.composite_sample != pipeline::LoadedSample::own;
     if (loads_others && (options.samples == 1 || options.sample))
-        throw CLI::ValidationError("--load-sample and --composite-sample go with all samples of a picture of several");
+        throw CLI::ValidationError(
+            "--load-sample and --composite-sample are valid only with --samples 2, 4 or 8 and without --sample");
     const rasterizer::SampleCoverage& coverage = options.render.raster.sample_coverage;
     const bool is_of_pack = options.render.raster.sample.has_value();
     if (coverage != rasterizer::SampleCoverage{} && options.samples == 1 && !is_of_pack)
         throw CLI::ValidationError(
-            "--alpha-to-coverage, --sample-coverage and --sample-mask go with --samples 2, 4 or 8");
+            "--alpha-to-coverage, --sample-coverage and --sample-mask are valid only with --samples 2, 4 or 8");
     if (coverage.is_inverted && !coverage.value)
-        throw CLI::ValidationError("--sample-coverage-invert goes with --sample-coverage");
+        throw CLI::ValidationError("--sample-coverage-invert is valid only with --sample-coverage");
     if (options.shades_pixels && options.samples == 1)
-        throw CLI::ValidationError("--shading pixel goes with --samples 2, 4 or 8");
+        throw CLI::ValidationError("--shading pixel is valid only with --samples 2, 4 or 8");
     if (options.interpolate && !options.shades_pixels)
-        throw CLI::ValidationError("--interpolate goes with --shading pixel");
+        throw CLI::ValidationError("--interpolate is valid only with --shading pixel");
     if (options.resolve != pipeline::Resolve::box && options.sample)
-        throw CLI::ValidationError("--resolve goes with all samples of a picture");
+        throw CLI::ValidationError("--resolve is valid only without --sample: one sample is not resolved");
 }
 
 // A pack of one sample keeps its own.
@@ -193,13 +195,16 @@ void take_scene(RunOptions& options, const std::string& scene) {
 
 const peeling::Algorithm* to_algorithm(const std::string& name) {
     const auto chosen = to_algorithms(name);
-    if (chosen.size() != 1) throw CLI::ValidationError("--algorithm takes one algorithm here");
+    if (chosen.size() != 1)
+        throw CLI::ValidationError("--algorithm",
+                                   "expected one algorithm, found " + std::to_string(chosen.size()) + " of them");
     return chosen[0];
 }
 
 void add_picture_options(CLI::App& app, RunOptions& options) {
     // Options take effect in the order in which they are added: SCENE is first, so that other options override the
     // state of a pack.
+    options.app = &app;
     add_scene(app, [&options](const std::string& scene) { take_scene(options, scene); });
     add_reading_options(app, options.scene_options);
     add_algorithm_option(app, options);
@@ -266,10 +271,11 @@ void complete(RunOptions& options) {
     if (is_piped && scenes::is_standard_output(options.stats))
         throw CLI::ValidationError("with -o -, --stats must name a file");
     if (options.algorithms.empty()) options.algorithms = to_algorithms(options.default_algorithm);
+    if (options.app != nullptr) refuse_unread(*options.app, options.algorithms, options.render.algorithm);
     check_samples(options);
     take_interpolation(options);
     if (options.orbit && !options.camera.empty()) {
-        throw CLI::ValidationError("--orbit excludes --camera");
+        throw CLI::ValidationError("--orbit and --camera exclude each other");
     }
     if (is_piped && options.algorithms.size() > 1)
         throw CLI::ValidationError("-o", "standard output takes one picture, not those of " +

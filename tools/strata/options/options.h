@@ -22,6 +22,7 @@ struct RunOptions {
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
     std::string scene;
     scenes::SceneOptions scene_options;
+    const CLI::App* app = nullptr;  // its options of single algorithms are refused if no chosen algorithm reads them
     std::string default_algorithm = "dual";
     bool takes_one_algorithm = false;                   // for the help; the command checks it
     std::vector<const peeling::Algorithm*> algorithms;  // at least one after parsing, without repetition

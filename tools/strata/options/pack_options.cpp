@@ -2,6 +2,7 @@
 
 #include "scenes/files/profile_json.h"
 #include "scenes/packs/pack_scene.h"
+#include "scenes/read_files.h"
 #include "tools/oracle/pack/state_json.h"
 
 namespace strata::tools {
@@ -9,6 +10,7 @@ namespace strata::tools {
 void take_pack_state(RunOptions& options, const std::string& scene) {
     if (scenes::is_procedural(scene) || !scenes::is_pack(scene)) return;
     const std::string folder = scenes::pack_folder(scene);
+    scenes::note_read_pack(folder);
     const nlohmann::json manifest = scenes::read_manifest(folder);
     options.profile = scenes::pack_profile(folder);
     const oracle::PackState state =

@@ -87,11 +87,11 @@ void add_memory_option(CLI::App& app, RunOptions& options) {
         if (bytes) scenes::limit_memory(*bytes);
         return bytes;
     };
-    add_option(
-        app, options.max_memory,
-        {"--max-memory", "SIZE", "refuse a picture that needs more bytes (default: the free memory of the computer)",
-         "bytes such as 65536, 64M or 1G"},
-        set_limit);
+    add_option(app, options.max_memory,
+               {"--max-memory", "SIZE",
+                "refuse a file, a scene or a picture that needs more bytes (default: the free memory of the computer)",
+                "bytes such as 65536, 64M or 1G"},
+               set_limit);
 }
 
 void add_format_option(CLI::App& app, RunOptions& options, const std::string& help) {

@@ -75,8 +75,7 @@ int render_mistaken(RunOptions& options, const std::vector<const oracle::Mistake
     const auto picture = mistake_renderer.with(mistakes);
     if (!picture)
         throw CLI::ValidationError("--mistake",
-                                   "expected a mistake that this scene, algorithm and profile have room "
-                                   "for, found '" +
+                                   "expected a mistake that can occur with this scene, algorithm and profile, found '" +
                                        std::string(mistakes.front()->name) + "'");
     std::string names;
     for (const oracle::Mistake* mistake : mistakes) names += (names.empty() ? "" : ",") + std::string(mistake->name);
@@ -87,11 +86,24 @@ int render_mistaken(RunOptions& options, const std::vector<const oracle::Mistake
     return 0;
 }
 
+// Statistics, maps and reports describe the algorithm, not a renderer with mistakes.
+void check_effects(const RenderCommand& command) {
+    const RunOptions& options = command.run;
+    if (!command.mistakes.empty())
+        for (const auto& [name, is_given] :
+             {std::pair{"--stats", !options.stats.empty()}, std::pair{"--map", command.map.has_value()},
+              std::pair{"--report", !command.report.empty()}})
+            if (is_given) throw CLI::ValidationError(std::string(name) + " has no effect with --mistake");
+    if (options.render.counters && options.stats.empty())
+        throw CLI::ValidationError("--counters has no effect without --stats");
+}
+
 int render(RenderCommand& command) {
     RunOptions& options = command.run;
     const std::vector<std::string> pictures{".exr", ".png"}, map_endings{".png"};
     check_outputs({{"-o", options.output, command.map ? map_endings : pictures, StandardOutput::possibly},
                    {"--report", command.report, {".html"}}});
+    check_effects(command);
     if (command.map && options.output.empty()) throw CLI::ValidationError("--map needs -o FILE.png");
     if (!command.mistakes.empty()) return render_mistaken(options, command.mistakes);
     const int status = run_algorithms(options, [&](const CompletedRun& finished) {

@@ -65,8 +65,8 @@ void warn_of_opaque(const RunOptions& options, const scenes::Scene& scene) {
     };
     if (std::none_of(scene.list.instances.begin(), scene.list.instances.end(), has_triangles)) {
         say_warning(options.scene +
-                    ": nothing is drawn, for the scene has no triangles; strata scene shows what it "
-                    "holds, and --scene chooses another one of the file");
+                    ": nothing is drawn, because the scene has no triangles; strata scene lists the "
+                    "file's scenes, --scene N chooses one");
         return;
     }
     if (options.render.alpha) return;
@@ -107,7 +107,7 @@ void check_reversed_once(const rasterizer::RasterState& raster, rasterizer::Dept
     using enum rasterizer::DepthOrder;
     if (raster.depth_order == greater && of_view == less && raster.depth_near > raster.depth_far)
         throw CLI::ValidationError("--depth-range",
-                                   "expected NEAR below FAR with --depth-order greater, which reverses the projection: "
+                                   "expected NEAR below FAR with --depth-order greater, which already reverses depth: "
                                    "reversed twice, the farthest surfaces would be drawn");
 }
 
@@ -134,7 +134,7 @@ void take_size(RunOptions& options, const oracle::TargetImage& picture, const st
     peeling::RenderOptions& render = options.render;
     const auto text = [](int width, int height) { return fmt::format("{}x{}", width, height); };
     if (options.states_size && (render.width != picture.width || render.height != picture.height))
-        throw InputError(file, "size", text(render.width, render.height) + " as --size says",
+        throw InputError(file, "size", text(render.width, render.height) + ", the value of --size",
                          text(picture.width, picture.height));
     render.width = picture.width;
     render.height = picture.height;
@@ -147,8 +147,8 @@ Session open_session(RunOptions& options) {
     // The profile is loaded first: it is small, and its errors are reported before a large scene is read.
     session.profile = scenes::load_profile(options.profile);
     if (const auto open = scenes::open_fields(options.profile); !open.empty())
-        say_warning(fmt::format("{}: nothing shows the values of {}; what depends on them is a guess", options.profile,
-                                fmt::join(open, ", ")));
+        say_warning(fmt::format("{}: the values of {} were never measured; results that depend on them are unverified",
+                                options.profile, fmt::join(open, ", ")));
     if (options.origin) session.profile = with_origin(session.profile, *options.origin);
     take_clip_convention(options, session.profile);
     if (options.sample && options.samples > 1) take_sample(options, session.profile);
@@ -308,7 +308,7 @@ void check_output(const OutputFile& output) {
     }
     const auto folder = std::filesystem::path(output.path).parent_path();
     if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-        throw CLI::ValidationError(output.option, "there is no folder " + folder.string());
+        throw CLI::ValidationError(output.option, "expected a folder that exists, found " + folder.string());
     }
 }
 
@@ -330,7 +330,7 @@ void check_outputs(const std::vector<OutputFile>& outputs) {
         const auto [found, is_new] = places.emplace(place_of(output.path), &output);
         if (!is_new) {
             throw CLI::ValidationError(output.option,
-                                       "'" + output.path + "' is the file of " + found->second->option + " already");
+                                       "'" + output.path + "' is also the file of " + found->second->option);
         }
     }
     const bool has_exr =

@@ -43,7 +43,7 @@ std::string checked_page(const ReportData& data) {
     std::string page = report_page(data);
     if (page.size() > most_bytes)
         throw InputError("report", "size",
-                         "a page of at most 8 MiB; a smaller --size or --region or fewer algorithms have one",
+                         "a page of at most 8 MiB (a smaller --size or --region or fewer algorithms make it smaller)",
                          std::to_string(page.size()) + " bytes");
     return page;
 }

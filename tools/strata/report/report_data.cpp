@@ -171,7 +171,8 @@ class Builder {
             throw CLI::ValidationError("--samples", lacking->message(session_.profile));
         for (const pipeline::LoadedSample loads : {options_.load_sample, options_.composite_sample})
             if (loads == pipeline::LoadedSample::resolved)
-                throw CLI::ValidationError("a report has no loads of resolved samples; use own or 0");
+                throw CLI::ValidationError(
+                    "a report cannot show --load-sample or --composite-sample resolved; use own or 0");
     }
 
     // Of sample 0.

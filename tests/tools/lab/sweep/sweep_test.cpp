@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 
 #include "rasterizer/base/input_error.h"
@@ -74,6 +75,21 @@ TEST_CASE("a sweep that fails leaves no file of results") {
     CHECK_THROWS_WITH(run_sweep(sweep, folder / "out", {}), "the third");
     CHECK_FALSE(std::filesystem::exists(folder / "out/results.jsonl"));
     CHECK_FALSE(std::filesystem::exists(folder / "out/timings.jsonl"));
+}
+
+TEST_CASE("a sweep replaces only results of its own kind") {
+    const Folder folder;
+    std::filesystem::create_directories(folder / "out");
+    for (const char* text : {"notes of someone\n", "{\"outcome\": \"done\"}\n", "[1]\n"}) {
+        std::ofstream{folder / "out/results.jsonl"} << text;
+        CHECK_THROWS_WITH(run_sweep(squares(2), folder / "out", {}),
+                          Catch::Contains("results.jsonl: line 1: expected a row of strata squares"));
+        CHECK(content_of(folder / "out/results.jsonl") == text);
+    }
+    std::filesystem::remove(folder / "out/results.jsonl");
+    CHECK(run_sweep(squares(2), folder / "out", {}) == 0);
+    CHECK(run_sweep(squares(3), folder / "out", {}) == 0);
+    CHECK(content_of(folder / "out/results.csv") == "square\n0\n1\n4\n");
 }
 
 TEST_CASE("a sweep does not write through a link in its folder") {

@@ -125,16 +125,18 @@ TEST_CASE("a manifest with samples that its profile does not have is rejected wi
     CHECK(read_state(manifest, "manifest.json", profile).sampling.samples == 2);
     const json right = sampling;
     sampling["samples"][1]["x"] = 5;
-    rejected("/state/sampling/samples: expected the 2, 4 or 8 points of profile geforce8, found 2 others");
+    rejected(
+        "/state/sampling/samples: expected the 2, 4 or 8 sample positions of profile geforce8, found 2 other "
+        "positions");
     sampling["samples"] = json::array();
-    rejected("found 0 others");
+    rejected("found 0 other positions");
     sampling = right;
     sampling["number"] = 0;
-    rejected("/state/sampling: expected either 'number', of one sample, or 'all', found both");
+    rejected("/state/sampling: expected either the field 'number' (of one sample) or the field 'all', found both");
     sampling.erase("number");
     sampling.erase("all");
     rejected("found neither");
     sampling = right;
     manifest["state"]["sample"] = {{"x", 4}, {"y", 4}};
-    rejected("expected 'number', because the state has the field 'sample', found 'all'");
+    rejected("expected the field 'number', because the state has the field 'sample', found the field 'all'");
 }

@@ -237,6 +237,10 @@ TEST_CASE(
                         entry(2, 3, "\x08\0\0\0"s) + entry(6, 3, "\1\0\0\0"s) + entry('\x11', 4, "\0\1\0\0"s) +
                         entry('\x16', 3, "\4\0\0\0"s) + entry('\x17', 4, "\x10\0\0\0"s) + "\0\0\0\0"s);
     refused(".tga", "\x89PNG\r\n\x1a\n"s);
+    // 70 bytes, whose 16 bytes of pixels begin one byte after their place, and after the end, where the reader gives 0.
+    for (const char offset : {'\x37', '\x47'})
+        refused(".bmp", "BM\0\0\0\0\0\0\0\0"s + offset + "\0\0\0\x28\0\0\0\2\0\0\0\2\0\0\0\1\0\x18"s +
+                            std::string(25, '\0') + std::string(16, '\1'));
     refused(".bmp", "BM"s);
     refused(".bmp", "");
     refused(".jpg", "P6 1 1 255\n\1\2\3"s);

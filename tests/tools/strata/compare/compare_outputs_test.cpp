@@ -90,7 +90,7 @@ TEST_CASE("an input that cannot be compared is a failed test case and pictures o
 TEST_CASE("a picture of another size than --size is rejected with both sizes") {
     const Folder folder;
     draw_planes(folder, "-o a.png");
-    const std::string said = "strata: a.png: size: expected 640x480 as --size says, found 24x16\n";
+    const std::string said = "strata: a.png: size: expected 640x480, the value of --size, found 24x16\n";
     for (const char* command : {"compare", "diagnose"}) {
         CHECK(run_strata(folder, {command, "planes:count=3", "a.png", "--size", "640x480"}).err == said);
         CHECK(run_strata(folder, {command, "planes:count=3", "a.png", "--size", "24x16"}).status == 0);

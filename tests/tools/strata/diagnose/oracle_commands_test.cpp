@@ -108,9 +108,20 @@ TEST_CASE("explain describes a pixel in text and as JSON and reports the valid p
     CHECK(document["histories"][0]["fragments"][0]["depth"].size() == 7);
     CHECK(content_of(folder / "column.svg").starts_with("<svg "));
     CHECK(run_strata(folder, {"explain", "teapot", "--size", "40x30", "--pixel", "40,0"}).err ==
-          "strata: --pixel must be a pixel from 0,0 to 39,29, not 40,0\n");
-    CHECK(run_strata(folder, {"explain", "teapot"}).err.find("must be a pixel from 0,0 to 1023,1023") !=
-          std::string::npos);
+          "strata: --pixel: expected a pixel from 0,0 to 39,29, found 40,0\n");
+    CHECK(run_strata(folder, {"explain", "teapot"})
+              .err.find("--pixel: expected a pixel from 0,0 to 1023,1023, found none") != std::string::npos);
     CHECK(run_strata(folder, {"explain", "teapot", "--pixel", "4"}).err ==
           "strata: --pixel: expected two whole numbers from 0 such as 320,200, found '4'\n");
+}
+
+TEST_CASE("passes writes nothing if a folder has the name of one of its files") {
+    const Folder folder;
+    const std::string name = GENERATE("contact.png", "pass.002.exr", "dual.passes.json");
+    std::filesystem::create_directories(folder / ("taken/" + name));
+    const CommandResult ended = run_strata(folder, {"passes", "planes:count=1", "--size", "8x8", "-o", "taken"});
+    CHECK(ended.status == 2);
+    CHECK(ended.err == "strata: taken/" + name + ": is a folder, not a file\n");
+    std::filesystem::remove(folder / ("taken/" + name));
+    CHECK(std::filesystem::is_empty(folder / "taken"));
 }

@@ -72,7 +72,7 @@ TEST_CASE("golden --suite rejects options of single packs and unknown scene name
         CHECK(ended.err == "strata: " + message + "\n");
     };
     fails({"golden", "--suite", "-o", "set", "--algorithm", "dual"},
-          "--suite excludes --algorithm: its scenes bring their own options");
+          "--algorithm has no effect with --suite, whose scenes have their own options");
     fails({"golden", "teapot", "--suite", "-o", "set"},
           "SCENE: expected a scene of the suite (strata diagnose --list --suite shows them), found 'teapot'");
     fails({"golden", "--suite"}, "-o is missing: the folder for the pack");

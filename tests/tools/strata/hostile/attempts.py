@@ -93,7 +93,7 @@ def gltf_attempts():
 
 
 def name_attempts():
-    shown = (["scene", "model.gltf"], ["scene", "model.gltf", "--json"], RENDER, ["render", "model.gltf", *SIZE, "--sorted", "x"],
+    shown = (["scene", "model.gltf"], ["scene", "model.gltf", "--json"], RENDER, ["render", "model.gltf", *SIZE, "--algorithm", "hybrid", "--sorted", "x"],
              ["explain", "model.gltf", *SIZE, "--pixel", "4,4"], ["explain", "model.gltf", *SIZE, "--pixel", "4,4", "--json"],
              ["explain", "model.gltf", *SIZE, "--pixel", "4,4", "--svg", "out.svg"], ["report", "model.gltf", *SIZE, "-o", "out"],
              ["render", "model.gltf", *SIZE, "--camera", "nobody"], ["passes", "model.gltf", *SIZE, "-o", "out"],

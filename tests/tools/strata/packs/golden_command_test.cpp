@@ -68,14 +68,13 @@ TEST_CASE("golden reports what it cannot do and which byte of a pack has changed
     };
     fails({"golden"}, "strata: SCENE is missing; --check PACK needs none");
     fails({"golden", "teapot"}, "strata: -o is missing: the folder for the pack");
-    fails({"golden", "teapot", "--check", "x"}, "strata: --check takes no scene: the pack holds it");
+    fails({"golden", "teapot", "--check", "x"}, "strata: SCENE has no effect with --check");
     fails({"golden", "--check", "none"}, "none/manifest.json");
     fails({"golden", "teapot", "--profile", "geforce3", "--algorithm", "dual", "-o", "p"},
           "strata: dual: profile geforce3");
     CHECK(folder.files().empty());
     REQUIRE(run_strata(folder, {"golden", "planes:count=1,cells=1", "--size", "8x8", "-o", "p"}).status == 0);
-    fails({"golden", "planes:count=1,cells=1", "-o", "p"},
-          "p: is not empty; it has to be a new folder or an empty one");
+    fails({"golden", "planes:count=1,cells=1", "-o", "p"}, "p: is not empty: expected a new or an empty folder");
     REQUIRE(shell(folder, "printf '\\007' | dd of=p/expected/dual/picture.npy bs=1 seek=200 conv=notrunc").status == 0);
     const CommandResult check = run_strata(folder, {"golden", "--check", "p"});
     CHECK(check.status == 1);
@@ -119,4 +118,21 @@ TEST_CASE("golden and probe end with a summary of what they wrote unless -q is g
     CHECK(kit.out.starts_with("kit: kit.json and probe.html, "));
     const CommandResult answers = shell(folder, "strata probe --profile geforce8 --unseen 1 -o answers");
     CHECK(answers.out.starts_with("answers: the answers of geforce8 to "));
+}
+
+TEST_CASE("nothing is written into a pack that is read") {
+    const Folder folder;
+    REQUIRE(run_strata(folder, {"golden", "planes:count=1", "--size", "8x8", "-q", "-o", "own"}).status == 0);
+    const auto check = [&](const std::vector<std::string>& words, const std::string& message) {
+        const CommandResult ended = run_strata(folder, words);
+        CHECK(ended.status == 2);
+        CHECK_THAT(ended.err, Contains(message));
+    };
+    for (const char* inside : {"own/inside", "own/expected/../more"})
+        for (const char* command : {"golden", "passes"})
+            check({command, "own", "-o", inside},
+                  std::string("strata: ") + inside +
+                      ": is in a pack that this command reads: expected a place outside of it");
+    check({"render", "own", "-o", "own/picture.png"}, "strata: own/picture.png: is in a pack that this command reads");
+    CHECK(run_strata(folder, {"golden", "--check", "own"}).out == "own: all files match\n");
 }

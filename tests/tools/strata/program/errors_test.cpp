@@ -116,28 +116,28 @@ TEST_CASE("a wrong argument gives exit status 2 and one error message with the e
         {{"render", "teapot", "--sort", "shuffle:0.5"}, "strata: --sort: ..."},
         {{"render", "teapot", "--formulation", "printed"},
          "strata: --formulation: expected resolved or published, found 'printed'"},
-        {{"render", "volume-beam:slices=2", "--sorted", "plane"},
+        {{"render", "volume-beam:slices=2", "--algorithm", "hybrid", "--sorted", "plane"},
          "strata: --sorted: expected a mesh or a material of the scene (strata scene lists them), found 'plane' (did "
          "you mean "
          "'planes'?)"},
         {{"reproduce", "carr2007", "-o", "page"},
          "strata: PAPER: expected carr2008, everitt2001 or bavoil2008, found 'carr2007' (did you mean 'carr2008'?)"},
         {{"reproduce", "everitt2001"}, "strata: --output is missing; strata reproduce --help says more"},
-        {{"render", "teapot", "--orbit", "1,2", "--camera", "x.json"}, "strata: --orbit excludes --camera"},
+        {{"render", "teapot", "--orbit", "1,2", "--camera", "x.json"},
+         "strata: --orbit and --camera exclude each other"},
         {{"render", "teapot", "--camera", "top"},
          "strata: --camera: expected a .json file (the scene has no camera), found 'top'"},
         {{"render", "teapot", "--camera", "none.json"}, "strata: none.json: ..."},
         {{"render", "teapot", "-o", "out.jpg"},
          "strata: -o: expected a file that ends in .exr or .png, found 'out.jpg'"},
-        {{"render", "teapot", "-o", "nowhere/out.png"}, "strata: -o: there is no folder nowhere"},
+        {{"render", "teapot", "-o", "nowhere/out.png"}, "strata: -o: expected a folder that exists, found nowhere"},
         {{"render"}, "strata: SCENE is missing; strata render --help says more"},
         {{"render", "teapot", "bunny"}, "strata: strata render: unexpected argument 'bunny'"},
         {{"render", "none.glb"}, "strata: none.glb: no such file"},
         {{"info", "--digests", "none.exr"}, "strata: none.exr: no such file"},
         {{"layers", "teapot"}, "strata: ..."},
-        {{"layers", "teapot", "-o", "x.exr", "--deep", "x.exr"}, "strata: --deep: 'x.exr' is the file of -o already"},
-        {{"layers", "teapot", "-o", "x.exr", "--deep", "./x.exr"},
-         "strata: --deep: './x.exr' is the file of -o already"},
+        {{"layers", "teapot", "-o", "x.exr", "--deep", "x.exr"}, "strata: --deep: 'x.exr' is also the file of -o"},
+        {{"layers", "teapot", "-o", "x.exr", "--deep", "./x.exr"}, "strata: --deep: './x.exr' is also the file of -o"},
         {{"render", "teapot", "-o", ""}, "strata: -o needs a file name or -"},
         {{"layers", "teapot", "--deep", ""}, "strata: --deep needs a file name"},
         {{"render", "teapot", "--stats", ""}, "strata: --stats needs a file name or -"},
@@ -146,7 +146,7 @@ TEST_CASE("a wrong argument gives exit status 2 and one error message with the e
         {{"bench", "teapot", "--per-effect", "-o", "x.json"},
          "strata: --per-effect goes with neither -o nor --baseline"},
         {{"diagnose", "teapot"}, "strata: CANDIDATE is missing; strata diagnose --help says more"},
-        {{"diagnose", "teapot", "a.png", "--suite"}, "strata: --suite goes with --list alone"},
+        {{"diagnose", "teapot", "a.png", "--suite"}, "strata: --suite has no effect without --list"},
         {{"list"}, "strata: WHAT is missing; strata list --help says more"},
         {{"list", "profile"},
          "strata: WHAT: expected algorithms, profiles or scenes, found 'profile' (did you mean 'profiles'?)"},
@@ -185,7 +185,7 @@ TEST_CASE(
     };
     const CommandResult same = with("linked/x.exr");
     CHECK(same.status == 2);
-    CHECK(same.err == "strata: --deep: 'linked/x.exr' is the file of -o already\n");
+    CHECK(same.err == "strata: --deep: 'linked/x.exr' is also the file of -o\n");
     CHECK(std::filesystem::is_empty(folder / "real"));
     std::filesystem::create_symlink("x.exr", folder / "real/y.exr");
     CHECK(with("linked/y.exr").status == 0);

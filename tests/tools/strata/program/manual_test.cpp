@@ -102,8 +102,9 @@ TEST_CASE("a picture stores the command that made it and that command makes the 
     CHECK(lines_of(told.out).at(0).find("--alpha 0.25") != std::string::npos);
     REQUIRE(run_strata(folder, {"render", "--from", file, "-o", copy}).status == 0);
     CHECK(content_of(folder / file) == content_of(folder / copy));
-    CHECK(run_strata(folder, {"layers", "--from=" + file, "-o", "c.exr"}).err.find("one of strata render") !=
-          std::string::npos);
+    CHECK(
+        run_strata(folder, {"layers", "--from=" + file, "-o", "c.exr"}).err.find("found a command of strata render") !=
+        std::string::npos);
     CHECK(run_strata(folder, {"render", "--from"}).status == 2);
 }
 
@@ -123,7 +124,8 @@ TEST_CASE("a picture of another program has no stored command") {
     CHECK(lines_of(ended.out)[2].find("1x1") != std::string::npos);
     const CommandResult from = run_strata(folder, {"render", "--from", "other.png", "-o", "copy.png"});
     CHECK(from.status == 2);
-    CHECK(from.err.find("other.png: strata:command: expected a picture that strata wrote") != std::string::npos);
+    CHECK(from.err.find("other.png: strata:command: expected a picture with the command that strata recorded in it") !=
+          std::string::npos);
 }
 
 TEST_CASE("an expected digest that no file has gives status 1") {

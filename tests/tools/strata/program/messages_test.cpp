@@ -51,12 +51,13 @@ TEST_CASE("a scene without triangles is reported with a suggestion") {
     const Folder folder;
     const CommandResult one = run_strata(folder, {"scene", warned_scene(folder)});
     CHECK(one.status == 0);
-    CHECK(one.err ==
-          "strata: warning: empty.gltf: nothing would be drawn, for the scene has no triangles; export its meshes as "
-          "triangles, or try a built-in scene: strata list scenes shows them\n");
-    std::ofstream(folder / "three.gltf") << R"({"asset":{"version":"2.0"},"scenes":[{},{},{}]})";
     CHECK(
-        run_strata(folder, {"scene", "three.gltf"}).err.ends_with("--scene 0 to 2 chooses another one of the file\n"));
+        one.err ==
+        "strata: warning: empty.gltf: nothing would be drawn, because the scene has no triangles; export its meshes as "
+        "triangles, or try a built-in scene: strata list scenes shows them\n");
+    std::ofstream(folder / "three.gltf") << R"({"asset":{"version":"2.0"},"scenes":[{},{},{}]})";
+    CHECK(run_strata(folder, {"scene", "three.gltf"})
+              .err.ends_with("--scene N, 0 to 2, chooses another scene of the file\n"));
     CHECK(run_strata(folder, {"scene", "planes:count=1"}).err.empty());
 }
 
@@ -174,7 +175,7 @@ TEST_CASE("every fault of a glTF file is reported on its own line") {
     many.close();
     const auto told = lines_of(run_strata(folder, {"scene", "many.gltf"}).err);
     REQUIRE(told.size() == 21);
-    CHECK(told.back() == "strata: 10 more faults are not shown");
+    CHECK(told.back() == "strata: 10 more errors are not shown");
 }
 
 TEST_CASE("an interrupt reports which files are missing") {

@@ -129,16 +129,17 @@ TEST_CASE("a picture's command names files in its own folder or in that of --fil
         CHECK(lines_of(ended.err).size() == 1);
     }
     const std::string words = "panes.json --profile chip.json --camera camera.json --alpha 0.5";
-    CHECK(run(words).err ==
-          "strata: own/a.png: strata:command: expected 'panes.json' in the folder own (--files-in FOLDER names another "
-          "one), found none\n");
+    CHECK(
+        run(words).err ==
+        "strata: own/a.png: strata:command: expected the file 'panes.json' in the folder own (--files-in FOLDER names "
+        "another folder), found no such file\n");
     CHECK(run(words, {"--files-in", "sub"}).status == 0);
     CHECK(run(words, {"--files-in=."}).status == 0);
     for (const char* const name : {"panes.json", "chip.json", "camera.json"})
         std::filesystem::copy(folder / name, folder.path() / "own" / name);
     CHECK(run(words).status == 0);
     CHECK(run_strata(folder, {"render", "teapot", "--files-in", "sub"}).err ==
-          "strata: --files-in: expected --from beside it, found none\n");
+          "strata: --files-in is valid only with --from\n");
 }
 
 TEST_CASE("a picture is redrawn whatever the name of its scene and from a pack with the pack's own state") {

@@ -233,11 +233,21 @@ TEST_CASE("threads that the system denies reduce the number of threads with a wa
             {.environment = {{"LD_PRELOAD", STRATA_FAILING_CALLS}, {"STRATA_MOST_THREADS", std::to_string(most)}}});
         INFO(most << " threads beside the first: " << ended.err);
         CHECK(ended.status == 0);
-        const std::string warning = "strata: warning: --threads: the system refused 4 threads; " +
-                                    std::to_string(std::max(1, most)) + " worked\n";
+        const std::string warning = "strata: warning: --threads: the system did not start 4 threads; " +
+                                    std::to_string(std::max(1, most)) + " threads ran\n";
         CHECK(ended.err == (most == 3 ? "" : warning));
         CHECK(digest_in(ended) == digest_in(plain));
     }
+}
+
+TEST_CASE("a stack that is too small is named") {
+    const Folder folder;
+    const CommandResult ended = shell(folder, "ulimit -s 64; strata render planes:count=1 --size 8x8 -o out.png");
+    CHECK(ended.status == 3);
+    CHECK(ended.err ==
+          "strata: the stack: cannot grow beyond 64 KiB: strata needs 512 KiB (ulimit -s 8192 is the usual limit)\n");
+    CHECK(folder.files().empty());
+    CHECK(shell(folder, "ulimit -s 512; strata render planes:count=1 --size 8x8 -o out.png").status == 0);
 }
 
 TEST_CASE("a picture is written completely with however few threads") {

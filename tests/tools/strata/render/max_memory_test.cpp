@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <regex>
@@ -87,6 +89,67 @@ TEST_CASE("a verdict takes at most 200 bytes a pixel and 64 MB", "[long]") {
     INFO(static_cast<double>(peak) / bytes_of_a_mebibyte << " MiB");
     CHECK(peak > 0);
     CHECK(peak < 200 * side * side + (std::uint64_t{64} << 20));
+}
+
+namespace {
+
+void write(const Folder& folder, const std::string& name, const std::string& bytes) {
+    std::ofstream{folder / name, std::ios::binary} << bytes;
+}
+
+// Every image is the same file, and every material draws another of them.
+std::string gltf_with_images(int count) {
+    std::string images, textures, materials, primitives;
+    for (int i = 0; i < count; ++i) {
+        const std::string number = std::to_string(i), comma = i == 0 ? "" : ",";
+        images += comma + R"({"uri": "a.png"})";
+        textures += comma + R"({"source": )" + number + "}";
+        materials += comma + R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": )" + number + "}}}";
+        primitives += comma + R"({"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": )" + number + "}";
+    }
+    return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]},
+                      {"componentType": 5126, "count": 3, "type": "VEC2"}], "images": [)" +
+           images + R"(], "textures": [)" + textures + R"(], "materials": [)" + materials +
+           R"(], "meshes": [{"primitives": [)" + primitives + "]}]}";
+}
+
+}  // namespace
+
+TEST_CASE("what a file or a scene takes is compared with --max-memory before it is read") {
+    struct Large {
+        std::vector<std::string> words;
+        std::string message;  // its beginning
+    };
+    const Large large = GENERATE(values<Large>({
+        {{"compare", "a.raw", "a.raw", "--layout", "4096x4096:rgba32f"}, "a.raw: size: expected a picture that takes"},
+        {{"compare", "a.raw", "a.raw", "--layout", "4x4:rgba8"}, "a.raw: size: expected 64 bytes (4 rows of 16 bytes)"},
+        {{"render", "random:triangles=10000000"}, "random:triangles=10000000: scene: expected triangles that take"},
+        {{"render", "planes:count=64,cells=256"}, "planes:count=64,cells=256: scene: expected triangles that take"},
+        {{"render", "a.gltf"}, "a.gltf: /images/"},
+        {{"render", "a.stl"}, "a.stl: size: expected a model that takes"},
+        {{"render", "a.json"}, "a.json: size: expected JSON that takes"},
+        {{"render", "teapot", "--camera", "a.raw"}, "a.raw: size: expected at most 1048576 bytes"},
+    }));
+    const Folder folder;
+    REQUIRE(shell(folder, "strata render planes:count=1 --size 1024x1024 --no-audit -q -o a.png").status == 0);
+    write(folder, "a.gltf", gltf_with_images(200));
+    write(folder, "a.raw", "");
+    std::filesystem::resize_file(folder / "a.raw", std::uintmax_t{4096} * 4096 * 16);
+    write(folder, "a.stl", std::string(10'000'000, ' '));
+    std::string list = "[0]";
+    for (int i = 0; i < 5'000'000; ++i) list += ",1";
+    write(folder, "a.json", R"({"positions": [)" + list + "]}");
+    std::vector<std::string> words = large.words;
+    words.insert(words.end(), {"--max-memory", "80M"});
+    const CommandResult ended = run_strata(folder, words);
+    CHECK(ended.status == 2);
+    CHECK(ended.err.substr(0, 8 + large.message.size()) == "strata: " + large.message);
+    CHECK(lines_of(ended.err).size() == 1);
+    const std::uint64_t peak = peak_of_strata(folder, words, 2);
+    INFO(static_cast<double>(peak) / bytes_of_a_mebibyte << " MiB");
+    CHECK(peak > 0);
+    CHECK(peak < (std::uint64_t{160} << 20));  // with the libraries that read images
 }
 
 TEST_CASE("the pixels of a picture are counted before they are decoded") {

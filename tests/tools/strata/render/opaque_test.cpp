@@ -37,7 +37,6 @@ TEST_CASE("a scene file without triangles is reported with the options to use") 
     const CommandResult ended = run_strata(folder, {"render", "random:triangles=0", "--size", "16x16"});
     CHECK(ended.status == 0);
     CHECK(ended.err ==
-          "strata: warning: random:triangles=0: nothing is drawn, for the scene has no triangles; strata scene shows "
-          "what "
-          "it holds, and --scene chooses another one of the file\n");
+          "strata: warning: random:triangles=0: nothing is drawn, because the scene has no triangles; strata scene "
+          "lists the file's scenes, --scene N chooses one\n");
 }
