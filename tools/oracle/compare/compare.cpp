@@ -16,11 +16,11 @@ std::string_view name(Kind kind) noexcept { return enum_name(kind); }
 
 namespace {
 
-// Over all targets, the worst distance of a pixel's depths and of its other codes, and whether one of them is beyond
-// its target's tolerance.
+// Over all targets, the worst distance of a pixel's depths and of its other codes, whether one of them is beyond its
+// target's tolerance, and whether one of them is NaN or infinite.
 struct Distances {
     std::vector<std::uint32_t> color, depth;
-    std::vector<bool> is_beyond;
+    std::vector<bool> is_beyond, is_not_finite;
 };
 
 // Over all channels, pixel by pixel, in binary64.
@@ -38,20 +38,31 @@ void measure_noise(const TargetPair& pair, TargetReport& report) {
     report.psnr = peeling::signal_to_noise(rmse);
 }
 
-// codes.h: the distance if one of the two is NaN.
-constexpr std::uint32_t nan_distance = ~std::uint32_t{0};
-
-void count_not_numbers(const TargetPair& pair, std::size_t pixel, TargetReport& report) {
-    const auto has_nan = [&](const TargetImage& target) {
+// Counts a differing pixel if one of its values has the property.
+bool add_if(NotFinite& found, const TargetPair& pair, std::size_t pixel, bool (*is_so)(double)) {
+    const auto has = [&](const TargetImage& target) {
         for (int c = 0; c < std::min(target.channels, pair.channels()); ++c)
-            if (std::isnan(target.value_at(pixel, c))) return true;
+            if (is_so(target.value_at(pixel, c))) return true;
         return false;
     };
-    report.not_numbers[0] += has_nan(*pair.reference) ? 1 : 0;
-    report.not_numbers[1] += has_nan(*pair.candidate) ? 1 : 0;
-    if (report.first_x >= 0) return;
-    report.first_x = static_cast<int>(pixel % static_cast<std::size_t>(pair.reference->width));
-    report.first_y = static_cast<int>(pixel / static_cast<std::size_t>(pair.reference->width));
+    const bool in_reference = has(*pair.reference), in_candidate = has(*pair.candidate);
+    if (!in_reference && !in_candidate) return false;
+    found.pixels[0] += in_reference ? 1 : 0;
+    found.pixels[1] += in_candidate ? 1 : 0;
+    if (found.first_x >= 0) return true;
+    found.first_x = static_cast<int>(pixel % static_cast<std::size_t>(pair.reference->width));
+    found.first_y = static_cast<int>(pixel / static_cast<std::size_t>(pair.reference->width));
+    return true;
+}
+
+bool is_float(const TargetImage& target) { return target.code == Code::half || target.code == Code::single; }
+
+// True if the pixel is not finite in one of the images.
+bool count_not_finite(const TargetPair& pair, std::size_t pixel, TargetReport& report) {
+    if (!is_float(*pair.reference) && !is_float(*pair.candidate)) return false;
+    const bool has_nan = add_if(report.nan, pair, pixel, [](double v) { return std::isnan(v); });
+    const bool has_infinity = add_if(report.infinite, pair, pixel, [](double v) { return std::isinf(v); });
+    return has_nan || has_infinity;
 }
 
 void measure(const TargetPair& pair, const Tolerances& tolerances, Distances& worst, Comparison& result) {
@@ -66,11 +77,12 @@ void measure(const TargetPair& pair, const Tolerances& tolerances, Distances& wo
         const std::uint32_t apart = pair.distance_at(i);
         if (apart == 0) continue;
         ++report.differing;
-        ++report.distances[apart];
-        if (apart == nan_distance)
-            count_not_numbers(pair, i, report);
-        else
+        if (count_not_finite(pair, i, report)) {
+            worst.is_not_finite[i] = true;
+        } else {
+            ++report.distances[apart];
             report.greatest = std::max(report.greatest, apart);
+        }
         of_kind[i] = std::max(of_kind[i], apart);
         if (apart <= allowed) continue;
         ++report.beyond;
@@ -91,6 +103,7 @@ class Sorter {
     [[nodiscard]] bool has_layers() const { return !reference_layers_.empty() && !candidate_layers_.empty(); }
 
     [[nodiscard]] Kind kind_of(std::size_t pixel, const Distances& worst) const {
+        if (worst.is_not_finite[pixel]) return Kind::not_finite;
         if (has_layers()) {
             const Kind kind = compare_layers(reference_layers_, candidate_layers_, pixel);
             if (kind != Kind::none) return kind;
@@ -126,6 +139,8 @@ std::array<bool, kind_count> tested_kinds(const std::vector<TargetPair>& pairs, 
         of(kind) = sorter.has_layers();
     for (const TargetPair& pair : pairs)
         of(pair.reference->meaning == Meaning::depth ? Kind::depth : Kind::color) = true;
+    for (const TargetPair& pair : pairs)
+        if (is_float(*pair.reference) || is_float(*pair.candidate)) of(Kind::not_finite) = true;
     return tested;
 }
 
@@ -157,7 +172,8 @@ void spend(std::string_view name, const PixelBudget& budget, std::span<const Kin
 void spend_all(const Tolerances& t, std::vector<KindReport>& kinds, Comparison& result) {
     using enum Kind;
     constexpr std::array layers{layer_missing, layer_doubled, layer_swapped, layer_merged, layer_other};
-    constexpr std::array coverages{coverage}, backgrounds{background}, depths{depth}, colors{color};
+    constexpr std::array coverages{coverage}, backgrounds{background}, depths{depth}, colors{color},
+        not_numbers{not_finite};
     constexpr std::array all{coverage,     background,  layer_missing, layer_doubled, layer_swapped,
                              layer_merged, layer_other, depth,         color};
     spend("coverage", t.coverage, coverages, kinds, result);
@@ -166,6 +182,7 @@ void spend_all(const Tolerances& t, std::vector<KindReport>& kinds, Comparison& 
     spend("depth-pixels", t.depth, depths, kinds, result);
     spend("color-pixels", t.color, colors, kinds, result);
     spend("pixels", t.pixels, all, kinds, result);
+    spend("not-finite", t.not_finite, not_numbers, kinds, result);
 }
 
 }  // namespace
@@ -179,7 +196,8 @@ Comparison compare(const Picture& reference, const Picture& candidate, const Tol
     Comparison result{.width = first.width, .height = first.height};
     result.not_compared = pairing.not_compared;
     result.notes = pairing.notes;
-    Distances worst{std::vector<std::uint32_t>(pixels), std::vector<std::uint32_t>(pixels), std::vector<bool>(pixels)};
+    Distances worst{std::vector<std::uint32_t>(pixels), std::vector<std::uint32_t>(pixels), std::vector<bool>(pixels),
+                    std::vector<bool>(pixels)};
     for (const TargetPair& pair : pairing.pairs) measure(pair, tolerances, worst, result);
 
     const Sorter sorter{reference, candidate, pairing, background};

@@ -20,6 +20,7 @@ namespace strata::oracle {
 
 enum class Kind : std::uint8_t {
     none,
+    not_finite,     // NaN or infinite in one image, and not the same in the other
     coverage,       // drawn in one image only
     background,     // drawn in neither image
     layer_missing,  // the candidate lacks some of the reference's layers
@@ -30,7 +31,7 @@ enum class Kind : std::uint8_t {
     depth,
     color
 };
-inline constexpr std::size_t kind_count = 10;
+inline constexpr std::size_t kind_count = 11;
 [[nodiscard]] std::string_view name(Kind kind) noexcept;
 
 // The number of pixels that may differ: a count, or a share of all pixels, whichever is larger.
@@ -48,8 +49,8 @@ struct Tolerances {
     std::uint32_t color_codes = 0, depth_codes = 0;       // in codes of the reference's type, at every pixel
     std::map<std::string, std::uint32_t> target_codes{};  // of targets by name, instead of the two above
     // Pixels that may differ beyond the tolerance in codes, by kind: coverage, the background, layers of any kind,
-    // depth, colour; and a budget for the remaining pixels of any kind.
-    PixelBudget coverage{}, background{}, layers{}, depth{}, color{}, pixels{};
+    // depth, colour; and a budget for the remaining pixels of these kinds. NaN and infinity have a budget of their own.
+    PixelBudget coverage{}, background{}, layers{}, depth{}, color{}, pixels{}, not_finite{};
     ColorChannels channels = ColorChannels::all;  // of colour targets
     friend bool operator==(const Tolerances&, const Tolerances&) = default;
 
@@ -66,17 +67,21 @@ struct SpentBudget {
     std::uint64_t pixels = 0, allowed = 0;
 };
 
+// Pixels that differ and are NaN, or infinite, in the reference and in the candidate.
+struct NotFinite {
+    std::array<std::uint64_t, 2> pixels{};
+    int first_x = -1, first_y = -1;
+};
+
 struct TargetReport {
     std::string part, name{};
     Code reference = Code::unorm8, candidate = Code::unorm8;
     int channels = 0;                         // number of channels compared
     std::uint64_t differing = 0, beyond = 0;  // pixels; beyond: by more than the target's tolerance in codes
-    std::uint32_t greatest = 0;               // largest distance
+    std::uint32_t greatest = 0;               // largest distance between finite values
     std::map<std::uint32_t, std::uint64_t>
-        distances{};  // number of pixels per distance of their worst channel, without 0
-    // Pixels with NaN, of the reference and of the candidate, where they differ; and the first such pixel.
-    std::array<std::uint64_t, 2> not_numbers{};
-    int first_x = -1, first_y = -1;
+        distances{};  // number of pixels per distance of their worst channel, without 0 and those that are not finite
+    NotFinite nan{}, infinite{};
     // For colours that differ: root mean square over all channels in 1/255, and 20 log10(255 / rmse) in decibels.
     std::optional<double> rmse{}, psnr{};
 };

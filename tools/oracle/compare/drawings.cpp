@@ -65,6 +65,7 @@ void paste(const pipeline::Image& from, int left, pipeline::Image& to) {
 std::array<std::uint8_t, 3> color_of(Kind kind) noexcept {
     switch (kind) {
         case Kind::none: return {0, 0, 0};
+        case Kind::not_finite: return {255, 255, 255};
         case Kind::coverage: return {255, 255, 0};
         case Kind::background: return {128, 128, 255};
         case Kind::layer_missing: return {255, 0, 0};

@@ -165,11 +165,16 @@ bool agrees(const PictureChange& mistake, const TargetPair& pair, std::size_t pi
     return true;
 }
 
-// Such a pixel gives no evidence of how a value was changed.
-bool is_nearly_equal(const TargetPair& pair, std::size_t pixel) {
-    for (int c = 0; c < pair.channels(); ++c)
-        if (!is_near(pair.candidate->at(pixel, c), pair.reference->value_at(pixel, c))) return false;
-    return true;
+// A pixel that is nearly equal gives no evidence of how a value was changed, and neither does one that is NaN or
+// infinite: a conversion may make anything of it.
+bool shows_change(const TargetPair& pair, std::size_t pixel) {
+    bool is_changed = false;
+    for (int c = 0; c < pair.channels(); ++c) {
+        const double given = pair.reference->value_at(pixel, c);
+        if (!std::isfinite(given) || !std::isfinite(pair.candidate->value_at(pixel, c))) return false;
+        is_changed = is_changed || !is_near(pair.candidate->at(pixel, c), given);
+    }
+    return is_changed;
 }
 
 // `evidence`: explained pixels whose difference is more than rounding.
@@ -178,7 +183,7 @@ void count(const PictureChange& mistake, const TargetPair& pair, Explanation& su
         const bool agreed = agrees(mistake, pair, pixel), equal = pair.is_equal_at(pixel);
         sum.of += equal ? 0 : 1;
         sum.explained += !equal && agreed ? 1 : 0;
-        evidence += !equal && agreed && (mistake.moved || !is_nearly_equal(pair, pixel)) ? 1 : 0;
+        evidence += !equal && agreed && (mistake.moved || shows_change(pair, pixel)) ? 1 : 0;
         sum.contradicted += equal && !agreed ? 1 : 0;
     }
 }

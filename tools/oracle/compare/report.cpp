@@ -29,11 +29,16 @@ std::string histogram(const TargetReport& target) {
     std::string text;
     int shown = 0;
     for (const auto& [distance, pixels] : target.distances) {
-        if (distance == ~std::uint32_t{0}) continue;  // NaN
         if (shown++ == most) return text + fmt::format(", ... up to {}", target.greatest);
         text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", distance, pixels);
     }
     return text;
+}
+
+std::string not_finite(const TargetReport& target, std::string_view name, const NotFinite& found) {
+    if (found.first_x < 0) return "";
+    return fmt::format("  target {}: {} at {} pixels of the reference and {} of the candidate, first at {},{}\n",
+                       in_part(target), name, found.pixels[0], found.pixels[1], found.first_x, found.first_y);
 }
 
 std::string share(const Explanation& e) {
@@ -48,7 +53,7 @@ std::string to_text(const Comparison& c) {
     std::string text = verdict(c) + '\n';
     for (const TargetReport& target : c.targets) {
         if (target.differing > 0 && target.greatest == 0)
-            text += fmt::format("  target {} ({}): {} pixels differ, all of them by NaN\n", in_part(target),
+            text += fmt::format("  target {} ({}): {} pixels differ, all of them by NaN or infinity\n", in_part(target),
                                 name(target.reference), target.differing);
         if (target.greatest > 0)
             text += fmt::format(
@@ -56,10 +61,7 @@ std::string to_text(const Comparison& c) {
                 name(target.reference),
                 target.candidate == target.reference ? "" : fmt::format(" against {}", name(target.candidate)),
                 target.differing, target.greatest, histogram(target));
-        if (target.first_x >= 0)
-            text += fmt::format(
-                "  target {}: NaN at {} pixels of the reference and {} of the candidate, first at {},{}\n",
-                in_part(target), target.not_numbers[0], target.not_numbers[1], target.first_x, target.first_y);
+        text += not_finite(target, "NaN", target.nan) + not_finite(target, "infinity", target.infinite);
         if (target.rmse)
             text += fmt::format("  target {}: RMSE {:.3f}/255, PSNR {:.2f} dB\n", in_part(target), *target.rmse,
                                 *target.psnr);
@@ -92,7 +94,9 @@ std::string to_json(const Comparison& c) {
                                        {"greatest", target.greatest},
                                        {"rmse", target.rmse ? ordered_json(*target.rmse) : ordered_json(nullptr)},
                                        {"psnr", target.psnr ? ordered_json(*target.psnr) : ordered_json(nullptr)},
-                                       {"distances", std::move(distances)}});
+                                       {"distances", std::move(distances)},
+                                       {"nan", target.nan.pixels},
+                                       {"infinite", target.infinite.pixels}});
     }
     document["kinds"] = ordered_json::array();
     for (const KindReport& kind : c.kinds)

@@ -31,7 +31,8 @@ bool take_tolerance(std::string_view kind, std::string_view amount, oracle::Tole
     for (const auto& [name, budget] :
          {std::pair{"coverage", &Tolerances::coverage}, std::pair{"background", &Tolerances::background},
           std::pair{"layers", &Tolerances::layers}, std::pair{"depth-pixels", &Tolerances::depth},
-          std::pair{"color-pixels", &Tolerances::color}, std::pair{"pixels", &Tolerances::pixels}})
+          std::pair{"color-pixels", &Tolerances::color}, std::pair{"pixels", &Tolerances::pixels},
+          std::pair{"not-finite", &Tolerances::not_finite}})
         if (kind == name) {
             const auto found = to_budget(amount);
             tolerances.*budget = found.value_or(oracle::PixelBudget{});
@@ -59,8 +60,8 @@ std::optional<oracle::Tolerances> to_tolerances(std::string_view text) {
 void check_targets(const oracle::Tolerances& tolerances, const std::vector<std::string>& targets) {
     for (const auto& [name, codes] : tolerances.target_codes) {
         if (std::ranges::find(targets, name) != targets.end()) continue;
-        std::vector<std::string> known{"color",  "depth",        "coverage",     "background",
-                                       "layers", "depth-pixels", "color-pixels", "pixels"};
+        std::vector<std::string> known{"color",        "depth",        "coverage", "background", "layers",
+                                       "depth-pixels", "color-pixels", "pixels",   "not-finite"};
         known.insert(known.end(), targets.begin(), targets.end());
         throw CLI::ValidationError("--tolerance",
                                    "expected " + one_of(known) + ", found " + found_but_near(name, known));
@@ -110,9 +111,9 @@ void add_tolerance_option(CLI::App& app, oracle::Tolerances& tolerances) {
          "forgive colours and depths N codes apart (color, depth, or a target by its name), and pixels that differ all "
          "the same, N or N% of them, by what they differ in (coverage, background, layers, depth-pixels, color-pixels) "
          "or in whatever "
-         "(pixels); nothing without this option",
-         "color=N, depth=N, TARGET=N, coverage=N, background=N, layers=N, depth-pixels=N, color-pixels=N and "
-         "pixels=N with commas between, pixels also as a share such as 0.02%"},
+         "(pixels); NaN and infinity only by not-finite=N; nothing without this option",
+         "color=N, depth=N, TARGET=N, coverage=N, background=N, layers=N, depth-pixels=N, color-pixels=N, "
+         "not-finite=N and pixels=N with commas between, pixels also as a share such as 0.02%"},
         [&tolerances](std::string_view text) {
             auto found = to_tolerances(text);
             if (found) found->channels = tolerances.channels;  // --channels is a separate option

@@ -140,18 +140,25 @@ TEST_CASE("JUnit skips the kinds that the compared targets cannot show") {
             names.push_back(xml.substr(begin, xml.find('"', begin) - begin));
         }
         CHECK(xml.find("skipped=\"" + std::to_string(names.size()) + "\"") != xml.npos);
-        CHECK(xml.find("tests=\"9\"") != xml.npos);
+        CHECK(xml.find("tests=\"10\"") != xml.npos);
         return names;
     };
     const std::vector<std::string> layers{"layer_missing", "layer_doubled", "layer_swapped", "layer_merged",
                                           "layer_other"};
-    std::vector<std::string> flat = layers;
+    const auto with_floats = [](std::vector<std::string> names) {
+        names.insert(names.begin(), "not_finite");
+        return names;
+    };
+    std::vector<std::string> flat = with_floats(layers);
     flat.push_back("depth");
     CHECK(skipped(ellipse()) == flat);  // colour only, with a known background
     TargetImage depth = make_target("", Code::unorm24, 40, 30, 1, ellipse_texel);
     depth.name = "depth";
     depth.meaning = Meaning::depth;
-    CHECK(skipped(make_picture({make_target("", Code::unorm8, 40, 30, 4, ellipse_texel), depth})) == layers);
+    CHECK(skipped(make_picture({make_target("", Code::unorm8, 40, 30, 4, ellipse_texel), depth})) ==
+          with_floats(layers));
+    CHECK(skipped(make_picture({make_target("", Code::single, 40, 30, 4, [](int, int) { return Texel{}; })})).front() ==
+          "layer_missing");
 }
 
 TEST_CASE(
@@ -221,6 +228,44 @@ TEST_CASE("a budget accepts its number of pixels for any difference and reports 
     CHECK(both.accepted);
     CHECK(both.spent.size() == 2);
     CHECK_FALSE(compare(reference, candidate, {.color_codes = 2, .depth = {.pixels = 99}}).accepted);
+}
+
+TEST_CASE("NaN and infinity are a kind of their own that only its own budget accepts") {
+    constexpr std::uint32_t one = 0x3f800000, half = 0x3f000000, nan = 0x7fc00000, infinity = 0x7f800000;
+    const auto flat = [](std::uint32_t first, std::uint32_t second) {
+        return make_picture({make_target("", Code::single, 4, 4, 3, [=](int x, int y) {
+            return Texel{x == 1 && y == 2 ? first : x == 3 && y == 3 ? second : one, half, half, 0};
+        })});
+    };
+    const Picture right = flat(one, one);
+    const Tolerances anything{.color_codes = 0xffffffff,
+                              .coverage = {.pixels = 16},
+                              .background = {.pixels = 16},
+                              .color = {.pixels = 16},
+                              .pixels = {.share = 1}};
+    const auto check = [&](const Picture& reference, const Picture& candidate, std::array<std::uint64_t, 2> nans,
+                           std::array<std::uint64_t, 2> infinities) {
+        const Comparison found = compare(reference, candidate, anything);
+        REQUIRE(find_kind(found, Kind::not_finite) != nullptr);
+        CHECK(find_kind(found, Kind::not_finite)->pixels == 1);
+        CHECK(find_kind(found, Kind::not_finite)->first_x == 1);
+        CHECK(find_kind(found, Kind::not_finite)->first_y == 2);
+        CHECK(found.targets.at(0).nan.pixels == nans);
+        CHECK(found.targets.at(0).infinite.pixels == infinities);
+        CHECK(found.targets.at(0).greatest == one - half);  // of the other pixel
+        CHECK_FALSE(found.accepted);
+        Tolerances asked = anything;
+        asked.not_finite.pixels = 1;
+        CHECK(compare(reference, candidate, asked).accepted);
+        for (const Explanation& e : found.explanations) CHECK(e.mistake.find("coded") == std::string::npos);
+    };
+    check(right, flat(nan, half), {0, 1}, {0, 0});
+    check(flat(nan, half), right, {1, 0}, {0, 0});
+    check(right, flat(infinity, half), {0, 0}, {0, 1});
+    check(right, flat(infinity | 0x80000000, half), {0, 0}, {0, 1});
+    check(flat(infinity, half), right, {0, 0}, {1, 0});
+    CHECK(compare(flat(nan, infinity), flat(nan, infinity)).equal);
+    CHECK_FALSE(compare(flat(nan, one), flat(infinity, one), anything).accepted);
 }
 
 TEST_CASE("RMSE and PSNR are those of all channels in units of 1/255") {

@@ -105,10 +105,11 @@ TEST_CASE("compare names what it expected when it is given something else") {
         words.insert(words.begin(), {"compare", "a.raw", "b.raw"});
         return run_strata(folder, words).err;
     };
-    CHECK(says({"--tolerance", "colour"}) ==
-          "strata: --tolerance: expected color=N, depth=N, TARGET=N, coverage=N, background=N, layers=N, "
-          "depth-pixels=N, color-pixels=N and pixels=N with commas between, pixels also as a share such as 0.02%, "
-          "found 'colour'\n");
+    CHECK(
+        says({"--tolerance", "colour"}) ==
+        "strata: --tolerance: expected color=N, depth=N, TARGET=N, coverage=N, background=N, layers=N, "
+        "depth-pixels=N, color-pixels=N, not-finite=N and pixels=N with commas between, pixels also as a share such as "
+        "0.02%, found 'colour'\n");
     CHECK(
         says({"--layout", "3x3"}) ==
         "strata: --layout: expected WIDTHxHEIGHT:FORMAT such as 640x480:rgba8, bgra8, rgb10a2, rgb16, rgba32f, d24 or "
