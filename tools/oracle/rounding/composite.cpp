@@ -106,6 +106,14 @@ StorageRounding storing(const End& result, bool is_divided) {
 StorageRounding conversion(const End& end) {
     const auto [storage, source, rounding] = end;
     if (storage == Storage::half) return keeper(storage, rounding, false);
+    if (const auto of_layers = layer_storage(source)) {
+        StorageRounding k = keeper(*of_layers, Rounding::nearest, false);
+        if (*of_layers == Storage::half) {
+            k.half = StorageRounding::Half::nearest;
+            k.relative = single_error;
+        }
+        return k;
+    }
     if (source == SourceRounding::any) return keeper(storage, Rounding::any, false);
     if (source == SourceRounding::premultiplied_truncated) return keeper(storage, Rounding::truncated, false);
     const bool goes_up = source == SourceRounding::stored || source == SourceRounding::premultiplied;
@@ -184,7 +192,8 @@ Compositor::Operand Compositor::operand(const Means& means, const Layer& layer, 
     o.alpha = clamped(stored(alpha));
     o.is_premultiplied = source == SourceRounding::premultiplied ||
                          source == SourceRounding::premultiplied_either_way ||
-                         source == SourceRounding::premultiplied_truncated;
+                         source == SourceRounding::premultiplied_truncated ||
+                         source == SourceRounding::premultiplied_half || source == SourceRounding::premultiplied_unorm8;
     const double excess = std::max(1.0, double{layer.color[3]});  // of alpha
     for (std::size_t c = 0; c < 3; ++c) {
         const Interval color = given(layer.color[c]);
@@ -285,7 +294,9 @@ Compositor::Channels Compositor::background_of(const Means& means, const Stack& 
         Interval x = Interval::of(stack.background[c]);
         const double slack = means.slack + (stack.is_moved ? stack.background_spread + last_places : 0);
         if (slack > 0) x = x.widened(slack * std::max(1.0, x.magnitude()));
-        if (!means.blend.has_codes) {
+        if (layer_storage(source)) {
+            channels[c] = means.source.kept(x, x.magnitude());
+        } else if (!means.blend.has_codes) {
             channels[c] = means.blend.kept(x, x.magnitude());
             if (means.blend.half != StorageRounding::Half::none)  // a clear value is rounded, a picture is cut
                 channels[c].high = std::max(channels[c].high, to_nearest.kept(x, x.magnitude()).high);
@@ -317,9 +328,15 @@ Sums Compositor::sums_of(const Stack& stack, const Channels& front, Interval wei
     const auto ends_in_codes = [](const Means& means) {
         return means.blend.has_codes && (means.blend.snaps || means.end.rounding == Rounding::held_then_nearest);
     };
-    if (result_.has_codes || !is_plain || !ends_in_codes(nearer)) return {};
+    // A sum that is rounded to binary16 again shows nothing of halves.
+    const bool is_half =
+        nearer.end.storage == Storage::half && hypothesis_.result.storage == Storage::single && !hypothesis_.is_divided;
+    if (result_.has_codes || !is_plain || (!is_half && !ends_in_codes(nearer))) return {};
     const double rounded = hypothesis_.result.storage == Storage::half ? 0x1p-10 : 0x1p-24;
-    Sums sums{.front_unit = nearer.blend.inverse, .weight = weight, .relative = rounded + 2 * single_error};
+    Sums sums{.front_unit = is_half ? 0 : nearer.blend.inverse,
+              .is_front_half = is_half,
+              .weight = weight,
+              .relative = rounded + 2 * single_error};
     if (ends_in_codes(back_)) sums.back_unit = back_.blend.inverse;
     sums.is_back_half = hypothesis_.back.storage == Storage::half;
     std::copy_n(front.begin(), 3, sums.front.begin());
@@ -383,7 +400,8 @@ ReachableColor Compositor::reach(const Stack& stack) const noexcept {
     const Channels front = under(front_, near_to_far.first(near), stack);
     const Mixing& mixing = stack.mixing;
     Interval weight = read(front[3]);
-    if (!is_apart) reach.sums = sums_of(stack, front, weight, back);
+    if (!is_apart || front_.end.storage == Storage::half) reach.sums = sums_of(stack, front, weight, back);
+    if (is_apart) reach.sums.back_unit = 0, reach.sums.is_back_half = false;  // a sum over the background
     if (mixing.behind == Mixing::Behind::twice) weight = weight * weight;
     if (mixing.behind == Mixing::Behind::inverted && near > 0) weight = rest_of(weight);
     for (std::size_t c = 0; c < 3; ++c) {

@@ -69,16 +69,16 @@ struct Stack {
     friend bool operator==(const Stack&, const Stack&) = default;
 };
 
-// The exact set of values of a float picture that is computed from accumulators of codes: only front + weight * back of
-// such codes is possible.
+// The exact set of values of a float picture that is computed from accumulators of codes or of halves: only front +
+// weight * back of such values is possible.
 struct Sums {
-    double front_unit = 0,
-           back_unit = 0;  // the step of the codes; 0 for a back of floats. front_unit 0: the set is not known
-    bool is_back_half = false;
+    double front_unit = 0, back_unit = 0;  // the step of the codes; 0 for an end of floats
+    bool is_front_half = false, is_back_half = false;
     std::array<Interval, 3> front{}, back{};
     Interval weight{};
     double relative = 0;  // error of a sum, relative to its terms
     friend bool operator==(const Sums&, const Sums&) = default;
+    [[nodiscard]] bool is_known() const noexcept { return front_unit > 0 || is_front_half; }
     [[nodiscard]] bool hold(const std::array<double, 4>& value) const noexcept;
     [[nodiscard]] double count() const noexcept;         // number of such sums, not counting floats
     [[nodiscard]] std::size_t weights() const noexcept;  // number of weights that `hold` tries; 0: the set is not known
@@ -184,7 +184,7 @@ class Compositor {
     static void over(const Means& means, std::span<const Layer> near_to_far, const Stack& stack,
                      Channels& onto) noexcept;
     [[nodiscard]] static Channels background_of(const Means& means, const Stack& stack) noexcept;
-    // The set of sums for a float picture with accumulators of codes; otherwise an unknown set.
+    // The set of sums for a float picture with accumulators of codes or halves; otherwise an unknown set.
     [[nodiscard]] Sums sums_of(const Stack& stack, const Channels& front, Interval weight,
                                const Channels& back) const noexcept;
 

@@ -19,6 +19,13 @@ std::string_view name(Storage storage) noexcept {
     return "binary32";
 }
 
+std::optional<Storage> layer_storage(SourceRounding source) noexcept {
+    using enum SourceRounding;
+    if (source == stored_half || source == premultiplied_half) return Storage::half;
+    if (source == stored_unorm8 || source == premultiplied_unorm8) return Storage::unorm8;
+    return std::nullopt;
+}
+
 Storage storage_of(Code code) noexcept {
     switch (code) {
         case Code::unorm8: return Storage::unorm8;
@@ -61,7 +68,11 @@ std::string_view words(Rounding rounding) noexcept {
 std::string_view words(SourceRounding source) noexcept {
     switch (source) {
         case SourceRounding::stored:
+        case SourceRounding::stored_half:
+        case SourceRounding::stored_unorm8:
         case SourceRounding::stored_either_way: return "";
+        case SourceRounding::premultiplied_half:
+        case SourceRounding::premultiplied_unorm8:
         case SourceRounding::premultiplied:
         case SourceRounding::premultiplied_either_way: return ", premultiplied layers";
         case SourceRounding::premultiplied_truncated: return ", premultiplied layers that are cut";
@@ -72,7 +83,9 @@ std::string_view words(SourceRounding source) noexcept {
 }
 
 std::string words(const End& end) {
-    if (end.storage == Storage::single) return "binary32";
+    if (end.storage == Storage::single)
+        return layer_storage(end.source) ? fmt::format("binary32, layers {}", name(*layer_storage(end.source)))
+                                         : "binary32";
     if (end.storage == Storage::half && end.rounding != Rounding::any)
         return fmt::format("binary16{}{}", end.rounding == Rounding::truncated ? " that is cut" : "",
                            end.source == SourceRounding::stored ? ", layers too" : "");
@@ -149,7 +162,9 @@ namespace {
 
 constexpr End anyhow{Storage::unorm8, SourceRounding::any, Rounding::any};
 
-End widest_of(Storage storage) {
+End widest_of(const std::vector<End>& ends) {
+    if (ends.size() == 1) return ends[0];
+    const Storage storage = ends[0].storage;
     return {storage, storage == Storage::single ? SourceRounding::unrounded : SourceRounding::any,
             storage == Storage::single ? Rounding::nearest : Rounding::any};
 }
@@ -162,8 +177,8 @@ class FamilyMaker {
     void add(Order order, const std::vector<End>& fronts, const std::vector<End>& backs) {
         HypothesisFamily family;
         family.widest = {.order = order,
-                         .front = widest_of(fronts[0].storage),
-                         .back = widest_of(backs[0].storage),
+                         .front = widest_of(fronts),
+                         .back = widest_of(backs),
                          .result = {result_, SourceRounding::any, Rounding::any},
                          .slack = slacks_.back(),
                          .is_divided = is_divided_};
@@ -175,7 +190,7 @@ class FamilyMaker {
     // For `over` and `under`, which have the same end in front and behind.
     void add(Order order, const std::vector<End>& ends) {
         HypothesisFamily family;
-        const End widest = widest_of(ends[0].storage);
+        const End widest = widest_of(ends);
         family.widest = {.order = order,
                          .front = widest,
                          .back = widest,
@@ -192,6 +207,8 @@ class FamilyMaker {
     void add(Order order, const End& front, const End& back, double slack, HypothesisFamily& family) const {
         const auto is_loose = [](const End& end) { return end.rounding == Rounding::any && has_codes(end.storage); };
         if (looseness_ == Looseness::definite && (is_loose(front) || is_loose(back))) return;
+        // What a pass keeps in binary32 is in a picture of floats only if one program composites all layers.
+        if (!has_codes(result_) && (front.rounding == Rounding::held || back.rounding == Rounding::held)) return;
         // Codes show nothing of how halves were rounded, so that these hypotheses would only fit more mistakes.
         const auto is_fine = [](const End& end) {
             return end.storage == Storage::half && end.rounding != Rounding::any &&
@@ -232,6 +249,13 @@ Families families(Storage result, const std::vector<double>& slacks, Looseness l
         if (storage != Storage::unorm8)
             maker.add(Order::under, ends(storage), {{Storage::unorm8, SourceRounding::stored, Rounding::nearest}});
         if (storage == Storage::single) maker.add(Order::under, ends(storage), ends(Storage::half));  // or in binary16
+        // A port may store layers as halves or codes and composite all of them in one program.
+        using enum SourceRounding;
+        if (storage == Storage::single && !has_codes(result))
+            for (const Order order : {Order::over, Order::under})
+                for (const SourceRounding source :
+                     {stored_half, premultiplied_half, stored_unorm8, premultiplied_unorm8})
+                    maker.add(order, {{storage, source, Rounding::nearest}});
     }
     for (const Order order : {Order::both_ends, Order::both_ends_far, Order::both_ends_apart})
         for (const Storage front : storages)

@@ -9,6 +9,7 @@
 // Tests    tests/tools/oracle/rounding/composite_test.cpp
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,9 +34,17 @@ enum class SourceRounding : std::uint8_t {
     premultiplied,      // multiplied by alpha, then rounded like `stored`
     premultiplied_either_way,
     premultiplied_truncated,  // the same, truncated
-    unrounded,                // binary32, as Direct3D allows
-    any                       // any of the above
+    // Of accumulators of binary32: layers and background were stored in another format, rounded to nearest.
+    stored_half,
+    premultiplied_half,
+    stored_unorm8,
+    premultiplied_unorm8,
+    unrounded,  // binary32, as Direct3D allows
+    any         // any of the above
 };
+
+// The format of layers that is not the accumulator's.
+[[nodiscard]] std::optional<Storage> layer_storage(SourceRounding source) noexcept;
 
 // The rounding of a blend's exact result. Floats have only `nearest`, for binary16 `truncated`, and `any` of these.
 enum class Rounding : std::uint8_t {

@@ -22,7 +22,7 @@ class Pricing {
     [[nodiscard]] double of(const ReachableColor& reach) const noexcept {
         double values = 1;  // number of values of the three channels
         for (std::size_t c = 0; c < 3; ++c) values *= 1 + (reach[c].high - reach[c].low) / step(reach[c].magnitude());
-        if (reach.sums.front_unit > 0) values = std::min(values, sums_of(reach.sums));
+        if (reach.sums.is_known()) values = std::min(values, sums_of(reach.sums));
         return std::nearbyint(std::log2(values) * 0x1p16) * 0x1p-16;
     }
     [[nodiscard]] double of_wrong() const noexcept { return 4 * 3 * digits(); }

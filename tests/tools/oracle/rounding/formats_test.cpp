@@ -121,3 +121,34 @@ TEST_CASE("a picture of floats over 8-bit accumulators that are rounded once per
     opened.profile = *pipeline::find_profile("geforce8");
     CHECK(judged(opened, picture).is_right);
 }
+
+// All values are within the rounding of halves, but they are none.
+TEST_CASE("a picture of floats that are no halves is not right by accumulators of halves") {
+    const OpenedScene opened{"volume-beam:slices=8", 48, 36};
+    const oracle::TargetImage halves = *opened.picture("a_buffer", pipeline::Format::rgba16f);
+    oracle::TargetImage floats = halves;
+    floats.code = oracle::Code::single;
+    for (std::size_t i = 0; i < floats.codes.size(); ++i)
+        floats.codes[i] = oracle::nearest(oracle::Code::single, oracle::value(oracle::Code::half, halves.codes[i]));
+    const SceneFragments fragments = opened.fragments();
+    // The number of wrong pixels.
+    const auto wrong_by_halves = [&](Order order, const oracle::TargetImage& picture) {
+        const End end{Storage::half, SourceRounding::any, Rounding::any};
+        const End result{Storage::single, SourceRounding::unrounded, Rounding::nearest};
+        Sample examples{fragments.setting()};
+        const Account account{{}, {.order = order, .front = end, .back = end, .result = result}};
+        return check_all(fragments, Colors{picture}, account, WrongPixels::some, examples).wrong_pixels.size();
+    };
+    CHECK(wrong_by_halves(Order::over, floats) == 0);
+    oracle::TargetImage off = floats;
+    std::size_t changed = 0;
+    for (std::uint32_t& word : off.codes)
+        if (std::bit_cast<float>(word) > 0.25f && std::bit_cast<float>(word) < 0.875f) word += 64, ++changed;
+    CHECK(changed > 100);
+    CHECK(wrong_by_halves(Order::over, off) > 100);
+    const oracle::TargetImage exact = *opened.picture("a_buffer", pipeline::Format::rgba32f);
+    for (const Order order : {Order::over, Order::over_apart, Order::under, Order::both_ends}) {
+        INFO(name(order));
+        CHECK(wrong_by_halves(order, exact) > 100);
+    }
+}

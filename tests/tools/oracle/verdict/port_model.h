@@ -95,6 +95,10 @@ class PortModel {
 
     // The source as it is blended, after its conversion.
     double taken(const End& end, double v) {
+        if (end.source == SourceRounding::stored_half || end.source == SourceRounding::premultiplied_half)
+            return as_half(v, false);
+        if (end.source == SourceRounding::stored_unorm8 || end.source == SourceRounding::premultiplied_unorm8)
+            return std::floor(std::min(std::max(v, 0.0), 1.0) * 255 + 0.5) / 255;
         const int top = levels(end.storage);
         const bool is_rounded =
             end.source != SourceRounding::unrounded && (end.source != SourceRounding::any || flips());
@@ -110,7 +114,9 @@ class PortModel {
     }
     bool premultiplies(const End& end) {
         return end.source == SourceRounding::premultiplied || end.source == SourceRounding::premultiplied_either_way ||
-               end.source == SourceRounding::premultiplied_truncated || (end.source == SourceRounding::any && flips());
+               end.source == SourceRounding::premultiplied_truncated ||
+               end.source == SourceRounding::premultiplied_half || end.source == SourceRounding::premultiplied_unorm8 ||
+               (end.source == SourceRounding::any && flips());
     }
 
     Color background(const End& end, const Rgba& given) {
@@ -120,7 +126,10 @@ class PortModel {
             const double code = std::min(std::max(double{given[c]}, 0.0), 1.0) * top;
             const bool goes_up =
                 end.source == SourceRounding::stored || end.source == SourceRounding::premultiplied || flips();
-            color[c] = top > 0 ? (goes_up ? std::floor(code + 0.5) : std::ceil(code - 0.5)) / top : kept(end, given[c]);
+            const bool is_layer = end.storage == Storage::single && end.source != SourceRounding::unrounded;
+            color[c] = is_layer  ? taken(end, given[c])
+                       : top > 0 ? (goes_up ? std::floor(code + 0.5) : std::ceil(code - 0.5)) / top
+                                 : kept(end, given[c]);
         }
         return color;
     }
