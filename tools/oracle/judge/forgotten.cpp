@@ -119,6 +119,13 @@ Color in_srgb(const Color& color, pipeline::ColorSpace space) {
     return encoded;
 }
 
+// Options of a frame with one sample per pixel, which has no other position for colours.
+peeling::RenderOptions options_of_one_sample(const RunInput& input) {
+    peeling::RenderOptions options = input.options;
+    options.raster.interpolation = rasterizer::Interpolation::sample;
+    return options;
+}
+
 // Another way to draw the scene.
 struct SceneVariant {
     std::string words;  // "--samples 4"
@@ -170,6 +177,7 @@ bool is_right_so(const RunInput& input, const SceneVariant& way, const Colors& p
     const pipeline::View view = moved_view(input, way);
     RunInput so{input.list, view, input.profile, input.options, input.sampling, input.space};
     so.sampling.samples = way.samples;
+    if (way.samples == 1) so.options = options_of_one_sample(input);
     if (way.background)
         for (std::size_t c = 0; c < 3; ++c) so.options.background[c] = static_cast<float>((*way.background)[c]);
     if (way.samples == 1) return verdict::right_by_rules(so, {"", input.profile}, picture, wrong).has_value();
@@ -235,7 +243,7 @@ std::vector<std::string> forgotten_options(const RunInput& input, const Colors& 
                                            const std::vector<std::uint32_t>& wrong_pixels, const std::string& camera,
                                            const ShowProgress& progress) {
     std::vector<std::string> sentences;
-    const SceneFragments scene{{input.list, input.view, input.profile, input.options, {}, input.space},
+    const SceneFragments scene{{input.list, input.view, input.profile, options_of_one_sample(input), {}, input.space},
                                input.options.fragment_memory};
     const Expected right = expected(scene);
     const Color given = given_background(input);

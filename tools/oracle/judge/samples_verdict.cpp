@@ -10,7 +10,9 @@
 #include "pipeline/device/check.h"
 #include "pipeline/device/sample_points.h"
 #include "tools/oracle/picture/pairs.h"
+#include "tools/oracle/verdict/equal_picture.h"
 #include "tools/oracle/verdict/other_rules.h"
+#include "tools/oracle/verdict/picture_verdict.h"
 
 namespace strata::oracle {
 
@@ -86,6 +88,18 @@ SamplesVerdict judge_samples(const RunInput& input, const AskedPicture& picture,
         verdict.found = std::move(found);
         verdict.form = std::move(form);
         if (verdict.found.is_right()) return verdict;
+    }
+    const verdict::PictureQuestion question{.colors = picture.colors,
+                                            .has_alpha = picture.has_alpha,
+                                            .is_frame_linear = input.space == pipeline::ColorSpace::linear,
+                                            .algorithm = picture.algorithm};
+    if (const std::string name = equal_sampled_algorithm(input, question, wrong_pixels(verdict.found)); !name.empty()) {
+        verdict.found.equal_to = name;
+        verdict.found.wrong_pixels.clear();
+        verdict.found.wrong_at_edges = 0;
+        verdict.found.alpha.state = verdict::AlphaState::absent;
+        verdict.found.alpha.wrong_pixels.clear();
+        return verdict;
     }
     // Rules decide about coverage and colours: another alpha has another cause.
     const std::vector<std::uint32_t> wrong = verdict.found.wrong_pixels;

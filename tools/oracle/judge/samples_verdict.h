@@ -1,8 +1,9 @@
 // tools/oracle/judge/samples_verdict.h - the verdict on a picture with several samples per pixel. If it is wrong, other
 // rules are tried.
 //
-// Rule     The picture is judged by the given rules; if it is wrong, by the others of other_rules.h. The first that it
-//          is right by is the verdict's. Of a file with straight colours both forms are judged, unless the form is
+// Rule     The picture is judged by the given rules; if it is wrong, it is compared with the picture of the stated
+//          algorithm or of the usual ones (equal_picture.h), then judged by the others of other_rules.h. The first that
+//          it is right by is the verdict's. Of a file with straight colours both forms are judged, unless the form is
 //          stated.
 // Tests    tests/tools/strata/compare/compare_samples_test.cpp
 #pragma once

@@ -8,8 +8,10 @@
 
 #include "peeling/registry.h"
 #include "peeling/render.h"
+#include "peeling/sampled_renderer.h"
 #include "pipeline/device/check.h"
 #include "tools/oracle/picture/stored_like.h"
+#include "tools/oracle/verdict/other_rules.h"
 #include "tools/oracle/verdict/picture_verdict.h"
 
 namespace strata::oracle::verdict {
@@ -66,10 +68,12 @@ bool keeps_ties(const peeling::Algorithm& algorithm) {
     return algorithm.ties != peeling::TiePolicy::unique && algorithm.ties != peeling::TiePolicy::merged;
 }
 
+constexpr const char* usual_algorithms[] = {"dual", "front_to_back", "a_buffer"};
+
 std::vector<const peeling::Algorithm*> tried(const peeling::Algorithm* stated) {
     std::vector<const peeling::Algorithm*> all;
     if (stated != nullptr) all.push_back(stated);
-    for (const char* usual : {"dual", "front_to_back", "a_buffer"})
+    for (const char* usual : usual_algorithms)
         if (stated == nullptr) all.push_back(peeling::find_algorithm(usual));
     for (const peeling::Algorithm& a : peeling::algorithms())
         if (a.exact && std::ranges::find(all, &a) == all.end() &&
@@ -103,6 +107,34 @@ std::string equal_algorithm(const RunInput& input, const PictureQuestion& questi
                     peeling::Renderer{input.list, input.view, input.profile, options}.render(*algorithm);
                 if (drawn.refusal) return false;
                 const auto own = as_stored(drawn.frame.color, question);
+                return own && is_equal(*own, question, rect);
+            };
+            try {
+                if (equals(part) && equals(whole)) return algorithm->name;
+            } catch (const pipeline::Refused&) {
+            }
+        }
+    return "";
+}
+
+std::string equal_sampled_algorithm(const RunInput& input, const PictureQuestion& question,
+                                    const std::vector<std::uint32_t>& wrong) {
+    const rasterizer::Rect whole{0, 0, question.colors.width, question.colors.height},
+        part = most_wrong(wrong, question.colors.width);
+    std::vector<const peeling::Algorithm*> all;
+    if (question.algorithm != nullptr) all.push_back(question.algorithm);
+    for (const char* usual : usual_algorithms)
+        if (question.algorithm == nullptr) all.push_back(peeling::find_algorithm(usual));
+    for (const std::optional<Format> format : formats_of(input, question.colors.code))
+        for (const peeling::Algorithm* const algorithm : all) {
+            const auto equals = [&](const rasterizer::Rect& rect) {
+                peeling::RenderOptions options = rect == whole ? input.options : scissored(input.options, rect);
+                options.audit = false;
+                options.color_format = format;
+                const peeling::RenderResult drawn =
+                    peeling::SampledRenderer{input.list, input.view, input.profile, options, input.sampling}.render(
+                        *algorithm);
+                const auto own = drawn.refusal ? std::nullopt : as_stored(drawn.frame.color, question);
                 return own && is_equal(*own, question, rect);
             };
             try {

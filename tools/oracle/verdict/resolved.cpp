@@ -199,6 +199,8 @@ std::vector<Hypothesis> hypotheses(Storage picture) {
 }
 
 std::string first_line(const ResolvedVerdict& v) {
+    if (!v.equal_to.empty())
+        return fmt::format("right: equal to the picture of {} at all {} pixels", v.equal_to, v.pixels);
     if (v.is_right())
         return fmt::format(
             "right: the mean of the samples at all {} pixels, {} of them at edges; intervals of at most "
@@ -345,6 +347,7 @@ const std::vector<std::uint32_t>& wrong_pixels(const ResolvedVerdict& v) {
 std::string to_text(const ResolvedVerdict& v, int width) {
     std::string text = first_line(v) + '\n';
     const std::vector<std::uint32_t>& wrong = oracle::verdict::wrong_pixels(v);
+    if (!v.equal_to.empty()) return text;
     text += fmt::format("  {}{}\n", v.wrong_pixels.empty() ? "" : "closest: ", describe(v.hypothesis));
     if (v.is_right() && v.alpha.is_told) text += fmt::format("  {}\n", describe(v.alpha));
     if (wrong.empty()) return text;

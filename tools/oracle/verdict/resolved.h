@@ -24,8 +24,9 @@ struct ResolvedVerdict {
     std::uint64_t pixels = 0, at_edges = 0;     // at_edges: pixels whose samples have different fragments
     std::vector<std::uint32_t> wrong_pixels{};  // row-major, ascending
     std::uint64_t wrong_at_edges = 0;
-    double possible = 0;   // the widest interval, in codes of the picture (floats: 1/255)
-    AlphaChecked alpha{};  // no mistake is named
+    double possible = 0;     // the widest interval, in codes of the picture (floats: 1/255)
+    AlphaChecked alpha{};    // no mistake is named
+    std::string equal_to{};  // the algorithm whose picture this is; "": none, or not asked
     [[nodiscard]] bool is_right() const noexcept { return wrong_pixels.empty() && alpha.state != AlphaState::wrong; }
 };
 

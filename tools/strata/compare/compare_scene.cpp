@@ -266,6 +266,7 @@ int compare_resolved(const SceneQuestion& question, const Session& session, cons
         return judge_samples(input, {.colors = colors,
                                      .is_form_stated = question.is_form_stated,
                                      .has_alpha = question.has_alpha,
+                                     .algorithm = question.algorithm.empty() ? nullptr : question.run.algorithms[0],
                                      .progress = shares_of(bar)});
     }();
     const std::vector<std::string> hints = forgotten(question, input, verdict);

@@ -67,6 +67,25 @@ TEST_CASE("a resolved picture is right with the origin at either corner and with
         }
 }
 
+TEST_CASE("the own picture with pixel shading is right and one changed pixel of it is wrong") {
+    const Folder folder;
+    const std::string options = " --size 64x48 --samples 2 --shading pixel";
+    REQUIRE(shell(folder, "strata golden showroom" + options + " --algorithm dual -q -o pack").status == 0);
+    const std::string picture = "pack/expected/dual/picture.npy";
+    const CommandResult own = shell(folder, "strata compare showroom " + picture + options);
+    INFO(own.out << own.err);
+    CHECK(own.status == 0);
+    CHECK(own.out.starts_with("right: equal to the picture of dual at all 3072 pixels\n"));
+    std::ifstream file{folder / picture, std::ios::binary};
+    std::string bytes{std::istreambuf_iterator<char>{file}, {}};
+    bytes[bytes.size() - 4 * (64 * 20 + 32)] ^= 0x40;
+    std::ofstream{folder / "changed.npy", std::ios::binary} << bytes;
+    const CommandResult changed = shell(folder, "strata compare showroom changed.npy" + options);
+    INFO(changed.out << changed.err);
+    CHECK(changed.status == 1);
+    CHECK(changed.out.starts_with("wrong: "));
+}
+
 TEST_CASE("with pixel shading the values of a pixel's centre or centroid are those that count") {
     const Folder folder;
     for (const std::string place : {"centre", "centroid"}) {
