@@ -7,6 +7,11 @@
 
 namespace strata::oracle::verdict {
 
+std::string instance_name(std::uint32_t n, const pipeline::DrawList& list) {
+    const std::string& mesh = list.meshes[list.instances[n].mesh].name;
+    return mesh.empty() ? fmt::format("instance {}", n) : fmt::format("instance {} (mesh {})", n, mesh);
+}
+
 namespace {
 
 std::string ordinal(std::uint32_t n, std::string_view end) {
@@ -17,11 +22,6 @@ std::string ordinal(std::uint32_t n, std::string_view end) {
 }
 
 std::string layers(std::uint32_t n) { return n == 1 ? "layer" : fmt::format("{} layers", n); }
-
-std::string instance_name(std::uint32_t n, const pipeline::DrawList& list) {
-    const std::string& mesh = list.meshes[list.instances[n].mesh].name;
-    return mesh.empty() ? fmt::format("instance {}", n) : fmt::format("instance {} (mesh {})", n, mesh);
-}
 
 std::string material_name(std::uint32_t n, const pipeline::DrawList& list) {
     const std::string& material = list.materials[n].name;

@@ -39,6 +39,8 @@ struct SceneFacts {
 // change colours.
 [[nodiscard]] int stage_of(RuleKind kind) noexcept;
 
+// "instance 2 (mesh decal)".
+[[nodiscard]] std::string instance_name(std::uint32_t n, const pipeline::DrawList& list);
 // Describes a port with this mistake: "only the nearest 3 layers of up to 6 are composited".
 [[nodiscard]] std::string description(const Rule& rule, const SceneFacts& facts, const pipeline::DrawList& list);
 [[nodiscard]] std::string description(const std::vector<Rule>& rules, const SceneFacts& facts,

@@ -3,6 +3,8 @@
 //
 // Tests    tests/tools/oracle/verdict/verdict_test.cpp
 #pragma once
+#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "tools/oracle/rounding/hypothesis.h"
@@ -26,7 +28,7 @@ struct CheckedAccount {
     std::uint64_t tied = 0;        // pixels whose value depends on the rule for equal depths
     std::uint64_t at_edges = 0;    // pixels that only a rasterizer with other snapping or another tie rule can have
     std::uint64_t at_close_depths = 0;  // pixels whose depths within two codes are ordered or merged otherwise
-    std::uint64_t edges = 0;            // pixels that another rasterizer may cover otherwise
+    std::uint64_t edges = 0;            // pixels that another rasterizer may cover otherwise, or that need one
     std::uint64_t lost_at_ties = 0;     // pixels that lack, or merge, fragments of one depth
     std::uint64_t changed = 0;          // pixels whose structure differs from the right one
     std::uint64_t undecided = 0;        // of these, pixels whose value the right structure also reaches
@@ -42,6 +44,9 @@ struct CheckedAccount {
     [[nodiscard]] bool is_whole() const noexcept { return wrong_pixels.empty(); }
     // Pixels that only another rasterizer gives, of those that are not wrong.
     [[nodiscard]] std::uint64_t rasterized_otherwise() const noexcept { return at_edges + at_close_depths; }
+    // True if more pixels at edges are excused than snapping moves: real rasterizers have 8 bits of subpixels, a
+    // thirty-second of what the coverages allow.
+    [[nodiscard]] bool excuses_many_edges() const noexcept { return at_edges > std::max<std::uint64_t>(8, edges / 20); }
     // Pixels at which the given fragments alone do not give the value.
     [[nodiscard]] std::uint64_t excused() const noexcept { return rasterized_otherwise() + lost_at_ties; }
 };

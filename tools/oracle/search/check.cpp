@@ -99,8 +99,8 @@ class Checker {
         CheckedAccount& found = part.checked;
         ++found.pixels;
         found.covered += list.visible.empty() ? 0 : 1;
-        found.edges += list.edge != nullptr ? 1 : 0;
         const MatchingTies way = matching_ties(compositor_, account_.rules, list, value, maker);
+        found.edges += list.edge != nullptr || (way.mask != 0 && way.at_edge) ? 1 : 0;
         const TieMask mask = way.mask;
         if (mask == 0) {
             found.wrong_pixels.push_back(static_cast<std::uint32_t>(list.y * scene_.width() + list.x));

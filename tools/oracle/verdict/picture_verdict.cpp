@@ -9,7 +9,10 @@
 
 #include "peeling/algorithms/algorithm.h"
 #include "pipeline/device/profile.h"
+#include "tools/oracle/fragments/near_depths.h"
+#include "tools/oracle/rules/rules.h"
 #include "tools/oracle/verdict/equal_picture.h"
+#include "tools/oracle/verdict/exchanged_depths.h"
 #include "tools/oracle/verdict/other_profile.h"
 #include "tools/oracle/verdict/report.h"
 #include "tools/oracle/verdict/shifted_edges.h"
@@ -37,6 +40,17 @@ std::string words_of(ColorStorage stored) {
     return "";
 }
 
+std::string words_of(const ExchangedDepths& exchanged, const pipeline::DrawList& list) {
+    const PairedSurface &nearer = exchanged.nearer, &farther = exchanged.farther;
+    const std::string name = instance_name(nearer.instance, list);
+    if (nearer.instance != farther.instance)
+        return fmt::format("{} lies behind {}", name, instance_name(farther.instance, list));
+    if (nearer.is_front_facing != farther.is_front_facing)
+        return fmt::format("{} faces of {} lie behind the others", nearer.is_front_facing ? "front" : "back", name);
+    return fmt::format("triangles of {} lie behind those that are submitted {}", name,
+                       nearer.is_later ? "earlier" : "later");
+}
+
 class PictureJudge {
   public:
     PictureJudge(const RunInput& input, const PictureQuestion& question) : input_{input}, question_{question} {
@@ -59,6 +73,7 @@ class PictureJudge {
         ask_profiles();
         hold_to_algorithm();
         find_shifted_edges();
+        find_exchanged_depths();
         doubt_many_edges();
         return std::move(result_);
     }
@@ -135,12 +150,23 @@ class PictureJudge {
             found.right.at_edges, found.right.edges, direction);
     }
 
-    // Real rasterizers have 8 bits of subpixels, a thirty-second of what the coverages allow.
+    // Depths of another precision exchange close layers in both directions.
+    void find_exchanged_depths() {
+        Verdict& found = result_.found;
+        constexpr std::uint64_t few = 10;
+        if (!found.is_right || found.right.rasterized_otherwise() < few) return;
+        const auto exchanged = exchanged_depths(scene(), seen(), found.right);
+        if (!exchanged) return;
+        found.is_right = false;
+        found.finding = fmt::format(
+            "layers at most {} codes of depth apart are exchanged {} times, all in one direction, as by a depth bias: "
+            "{}",
+            close_codes, exchanged->pairs, words_of(*exchanged, input_.list));
+    }
+
     void doubt_many_edges() {
         Verdict& found = result_.found;
-        constexpr std::uint64_t few = 8;
-        const std::uint64_t most = std::max(few, found.right.edges / 20);
-        if (!found.is_right || found.right.at_edges <= most) return;
+        if (!found.is_right || !found.right.excuses_many_edges()) return;
         found.is_right = false;
         found.doubt = fmt::format(
             "{} of {} pixels at edges are excused, where another rasterizer's snapping moves few: "

@@ -247,6 +247,11 @@ Verdict judge_at_length(SceneFragments& scene, const Colors& candidate, const Se
     const std::size_t wide = std::erase_if(verdict.explanations, [](const CheckedAccount& c) {
         return has_codes(c.account.hypothesis.result.storage) && c.observed > most_codes_of_right;
     });
+    // One that excuses more pixels at edges than it explains, and more than snapping moves, fits by chance.
+    if (!verdict.right.is_whole())
+        std::erase_if(verdict.explanations, [](const CheckedAccount& c) {
+            return c.excuses_many_edges() && c.at_edges > c.changed - c.undecided;
+        });
     if (wide > 0 && verdict.explanations.empty() && verdict.right.is_whole())
         verdict.doubt = "a mistake explains the picture better, but needs rounding of more than 5 codes";
     sort_explanations(verdict);
