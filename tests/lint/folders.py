@@ -19,7 +19,7 @@ LIBRARIES = {
     "pipeline": ["formats", "device", "vertices", "stages", "textures", "geforce3", "frame", "fragments", "region"],
     "peeling": ["programs", "loops", "algorithms", "audit", "", "frame", "truth"],
     "scenes": ["numbers", "", "gltf/document", "exr", "images", "files", "models", "packs", "procedural", "gltf"],
-    "tools": ["port", "lab/hardware_check/drawing", "lab/hardware_check/suites", "oracle", "lab/probe/kit", "lab/probe/files", "lab/probe/search", "library",
+    "tools": ["port", "lab/hardware_check/drawing", "lab/hardware_check/suites", "request", "oracle", "lab/probe/kit", "lab/probe/files", "lab/probe/search", "library",
               "python", "recipes", "strata", "lab", "web"],
 }
 # The libraries that each library may include. scenes and peeling do not include each other.

@@ -49,7 +49,7 @@ Diagnosed diagnose(const Scene& scene, const Picture& candidate, const Algorithm
     RenderOptions of_candidate = options;
     of_candidate.width = candidate.targets[0].width;
     of_candidate.height = candidate.targets[0].height;
-    const View view = scene.view(of_candidate.width, of_candidate.height);
+    const View view = scene.view(of_candidate.width, of_candidate.height, of_candidate.raster);
     auto found =
         oracle::diagnose_picture({.input = {scene.list(), view, profile, of_candidate, sampling, scene.space()},
                                   .algorithm = algorithm,
@@ -65,7 +65,7 @@ Judgement judge(const Scene& scene, const Picture& candidate, const DeviceProfil
     RenderOptions of_candidate = options;
     of_candidate.width = colors->width;
     of_candidate.height = colors->height;
-    const View view = scene.view(of_candidate.width, of_candidate.height);
+    const View view = scene.view(of_candidate.width, of_candidate.height, of_candidate.raster);
     return oracle::judge({scene.list(), view, profile, of_candidate, sampling, scene.space()}, {*colors});
 }
 

@@ -13,7 +13,7 @@ namespace {
 // The renderer refers to the draw list of the scene, which must outlive it.
 peeling::SampledRenderer renderer_of(const Scene& scene, const DeviceProfile& profile, const RenderOptions& options,
                                      const Multisampling& sampling) {
-    return {scene.list(), scene.view(options.width, options.height), profile, options, sampling};
+    return {scene.list(), scene.view(options.width, options.height, options.raster), profile, options, sampling};
 }
 
 void check_pixel(int x, int y, const RenderOptions& options) {
@@ -75,7 +75,7 @@ std::vector<Layer> layers(const Scene& scene, const Algorithm& algorithm, const 
 
 std::vector<CapturedFragment> fragments(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,
                                         const RenderOptions& options) {
-    return peeling::Renderer{scene.list(), scene.view(options.width, options.height), profile, options}
+    return peeling::Renderer{scene.list(), scene.view(options.width, options.height, options.raster), profile, options}
         .fragments(algorithm)
         .all;
 }
@@ -83,7 +83,7 @@ std::vector<CapturedFragment> fragments(const Scene& scene, const Algorithm& alg
 std::vector<oracle::PassReport> passes(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,
                                        const RenderOptions& options, const Multisampling& sampling) {
     std::vector<oracle::PassReport> shown;
-    const View view = scene.view(options.width, options.height);
+    const View view = scene.view(options.width, options.height, options.raster);
     oracle::passes(input_of(scene, view, profile, options, sampling), algorithm,
                    [&](oracle::PassReport&& pass) { shown.push_back(std::move(pass)); });
     return shown;
@@ -92,7 +92,7 @@ std::vector<oracle::PassReport> passes(const Scene& scene, const Algorithm& algo
 oracle::History explain(const Scene& scene, int x, int y, const Algorithm& algorithm, const DeviceProfile& profile,
                         const RenderOptions& options) {
     check_pixel(x, y, options);
-    const View view = scene.view(options.width, options.height);
+    const View view = scene.view(options.width, options.height, options.raster);
     return oracle::explain(input_of(scene, view, profile, options), algorithm, {x, y, x + 1, y + 1}).at(0);
 }
 
@@ -100,7 +100,7 @@ oracle::SampledHistory explain_samples(const Scene& scene, int x, int y, const A
                                        const DeviceProfile& profile, const RenderOptions& options,
                                        const Multisampling& sampling) {
     check_pixel(x, y, options);
-    const View view = scene.view(options.width, options.height);
+    const View view = scene.view(options.width, options.height, options.raster);
     return oracle::explain_samples(input_of(scene, view, profile, options, sampling), algorithm, x, y);
 }
 

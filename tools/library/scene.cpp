@@ -7,6 +7,8 @@
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/bounds.h"
+#include "scenes/camera.h"
+#include "scenes/packs/pack_scene.h"
 
 namespace strata {
 inline namespace v0_1 {
@@ -66,7 +68,10 @@ std::vector<std::uint32_t> indices_of(const Fields& its, const Triangles& triang
 }  // namespace
 
 Scene::Scene(const std::string& spec, const SceneOptions& options)
-    : scene_{scenes::load_scene(spec, options)}, is_loaded_{true}, space_{options.color_space} {}
+    : scene_{scenes::load_scene(spec, options)},
+      is_loaded_{true},
+      is_pack_{scenes::is_pack(spec)},
+      space_{options.color_space} {}
 
 Scene& Scene::add(const Triangles& triangles) {
     const Fields its{triangles};
@@ -140,14 +145,18 @@ Scene& Scene::orbit(double azimuth_degrees, double elevation_degrees) {
     return *this;
 }
 
-View Scene::view(int width, int height) const {
+View Scene::view(int width, int height, const rasterizer::RasterState& raster) const {
     const double aspect = height > 0 ? double(width) / height : 1;
     if (own_view_) return *own_view_;
-    if (look_at_) return scenes::look_at(*look_at_, aspect);
+    if (!look_at_ && !orbit_ && is_pack_) return *scene_.own_view;
+    const auto in_convention = [&](const View& view) {
+        return scenes::with_clip_convention(view, {}, {raster.clip_depth, raster.depth_order});
+    };
+    if (look_at_) return in_convention(scenes::look_at(*look_at_, aspect));
     if (!orbit_ && !is_loaded_) return {};
-    if (!orbit_ && scene_.own_view) return *scene_.own_view;
+    if (!orbit_ && scene_.own_view) return in_convention(*scene_.own_view);
     const Orbit orbit = orbit_.value_or(Orbit{});
-    return scenes::orbit_view(scene_.bounds, orbit.azimuth, orbit.elevation, aspect);
+    return in_convention(scenes::orbit_view(scene_.bounds, orbit.azimuth, orbit.elevation, aspect));
 }
 
 }  // namespace v0_1

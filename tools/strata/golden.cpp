@@ -10,9 +10,9 @@
 #include "peeling/sampled_renderer.h"
 #include "scenes/packs/new_folder.h"
 #include "tools/oracle/suite/suite_packs.h"
+#include "tools/request/choices.h"
 #include "tools/strata/command.h"
 #include "tools/strata/messages.h"
-#include "tools/strata/options/choices.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/options/option_readers.h"
 #include "tools/strata/options/pack_options.h"
@@ -55,7 +55,7 @@ oracle::Golden golden_of(RunOptions& options, const std::function<void(double sh
                           .color_space = options.scene_options.color_space,
                           .profile = std::move(session.profile),
                           .options = options.render,
-                          .sampling = sampling(options),
+                          .sampling = sampling_of(options),
                           .command = canonical_command("golden", options, options.algorithms)};
     golden.scene.own_view = session.view;
     peeling::RenderOptions tried = golden.options;
@@ -109,7 +109,7 @@ void refuse_without_effect(const CLI::App& app, const GoldenOptions& options) {
 }
 
 int golden(GoldenOptions& options) {
-    if (!options.check.empty()) return check(options.check, options.run.simd);
+    if (!options.check.empty()) return check(options.check, options.run.render.simd);
     if (options.run.scene.empty() && !options.suite)
         throw CLI::ValidationError("SCENE is missing; --check PACK needs none");
     if (options.run.output.empty()) throw CLI::ValidationError("-o is missing: the folder for the pack");
@@ -147,7 +147,7 @@ Command add_golden(CLI::App& root) {
         "--suite", options->suite,
         "write the standard set: small scenes in which every known mistake shows; SCENE may name one of them");
     app->add_flag("--exr", options->exr, "next to the arrays, EXR files of the picture, the layers and every pass");
-    add_choice(*app, options->run.simd, "--simd", simds,
+    add_choice(*app, options->run.render.simd, "--simd", simds,
                "instruction set; same bits (default best: what the processor has)");
     app->footer(
         "Examples:\n"

@@ -95,7 +95,8 @@ void show(const RunOptions& options, const Session& session, const peeling::Algo
                  {"query"}},
                 {}};
     oracle::ContactSheet sheet;
-    const oracle::RunInput input{session.scene.list, session.view, session.profile, options.render, sampling(options)};
+    const oracle::RunInput input{session.scene.list, session.view, session.profile, options.render,
+                                 sampling_of(options)};
     oracle::passes(input, algorithm, [&](oracle::PassReport&& pass) {
         const std::string name = fmt::format("pass.{:03}.exr", pass.number);
         oracle::write_targets(path(name), pass.targets);

@@ -26,11 +26,11 @@
 #include "scenes/files/unfinished_files.h"
 #include "scenes/gltf/document/input_errors.h"
 #include "scenes/read_files.h"
+#include "tools/request/names.h"
 #include "tools/strata/command.h"
 #include "tools/strata/lab.h"
 #include "tools/strata/manual/manual.h"
 #include "tools/strata/messages.h"
-#include "tools/strata/options/names.h"
 #include "tools/strata/recorded_command.h"
 #include "tools/strata/table.h"
 

@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 
 struct InspectOptions {
     std::string scene;
-    scenes::SceneOptions scene_options;
+    PictureRequest request;
     bool json = false;
 };
 
@@ -144,11 +144,11 @@ Command add_scene(CLI::App& root) {
     auto* app =
         root.add_subcommand("scene", "show what a model holds: meshes, alpha modes, textures, cameras, warnings");
     const auto options = std::make_shared<InspectOptions>();
-    add_scene_options(*app, options->scene, options->scene_options);
+    add_scene_options(*app, options->scene, options->request);
     app->add_flag("--json", options->json, "one JSON document instead of the text");
     app->footer(footer("  strata scene teapot\n  strata scene volume-beam:slices=16 --json\n"));
     return {app, [options] {
-                const scenes::Scene scene = scenes::load_scene(options->scene, options->scene_options);
+                const scenes::Scene scene = scenes::load_scene(options->scene, options->request.scene_options);
                 print(options->json ? to_json(scene).dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n'
                                     : describe(scene));
                 warn_of_empty(options->scene, scene);

@@ -28,7 +28,7 @@ def test_a_wrong_picture_has_a_sentence_and_its_mistakes_or_what_was_forgotten()
 def test_samples_are_those_of_the_command():
     half = np.array([[-1, -1, 0], [0, -1, 0], [-1, 1, 0], [0, -1, 0], [0, 1, 0], [-1, 1, 0]])
     scene = strata.Scene().add(half, color=(1, 0, 0, 1))
-    picture = strata.render(scene, "dual", profile="ideal", width=3, height=1, samples=4, color_format="rgba32f").color
+    picture = strata.render(scene, "dual", profile="ideal", size=(3, 1), samples=4, color_format="rgba32f").color
     assert picture[0, :, 0].tolist() == [1.0, 0.5, 0.0]  # two of the middle pixel's four samples
     with pytest.raises(strata.InputError, match="options: samples: expected 1, 2, 4 or 8, found 3"):
         strata.render(scene, samples=3)
@@ -64,20 +64,20 @@ def test_an_own_algorithm_is_called_for_every_sample_and_its_errors_arrive():
         called.append((region.width, region.height, region.fragments["color"].shape[1]))
         return region.behind
 
-    strata.render(scene, behind, width=8, height=6, samples=4)
+    strata.render(scene, behind, size=(8, 6), samples=4)
     assert called == [(8, 6, 4)] * 4
 
     def fails(region):
         raise KeyError("mine")
 
     with pytest.raises(KeyError, match="mine"):
-        strata.render(scene, fails, width=8, height=6)
+        strata.render(scene, fails, size=(8, 6))
     with pytest.raises(strata.InputError, match="algorithm: result: expected an array of shape"):
-        strata.render(scene, lambda region: np.zeros(3), width=8, height=6)
+        strata.render(scene, lambda region: np.zeros(3), size=(8, 6))
 
 
 def test_pictures_of_float64_and_of_every_order_are_accepted():
     scene = strata.Scene("planes:count=2")
-    picture = strata.render(scene, "dual", profile="ideal", width=8, height=6).color
+    picture = strata.render(scene, "dual", profile="ideal", size=(8, 6)).color
     for array in (picture.astype(np.float64), np.asfortranarray(picture), picture.astype(">f4"), picture[::-1].copy()[::-1]):
         assert strata.compare(picture, array).equal

@@ -15,7 +15,7 @@ def file(tmp_path):
     """A file with a depth slightly above 0.5 everywhere."""
     z = float(NEAR_ONE_HALF.view(np.float32)[0]) * 2 - 1
     scene = strata.Scene().add([[-1, -1, z], [3, -1, z], [-1, 3, z]], color=(1, 1, 1, 0.5))
-    picture = strata.render(scene, "front_to_back", width=4, height=4, depth="d32f")
+    picture = strata.render(scene, "front_to_back", size=(4, 4), depth_format="d32f")
     assert (picture.depth.view(np.uint32) == NEAR_ONE_HALF).all()
     picture.save(str(tmp_path / "depth.exr"))
     return str(tmp_path / "depth.exr")

@@ -9,7 +9,7 @@ COLORS = np.array([[1, 0, 0, 0.5], [0, 1, 0, 0.5], [0, 0, 1, 0.5], [1, 1, 0, 0.2
 
 
 def digest(scene):
-    return strata.render(scene, "dual", profile="geforce8", width=24, height=16).digest
+    return strata.render(scene, "dual", profile="geforce8", size=(24, 16)).digest
 
 
 def test_lists_interleaved_arrays_and_indices_say_the_same():
@@ -50,7 +50,7 @@ def test_a_camera_sees_what_its_matrices_see():
     scene.look_at((0, 0, 2), fovy=90, near=1, far=3)
     projection = [1 / 1.5, 0, 0, 0, 0, 1, 0, 0, 0, 0, -2, -1, 0, 0, -3, 0]  # of 24 x 16 pixels, by columns
     same.look([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -2, 1], projection)
-    assert np.array_equal(strata.render(scene, width=24, height=16).color, strata.render(same, width=24, height=16).color)
+    assert np.array_equal(strata.render(scene, size=(24, 16)).color, strata.render(same, size=(24, 16)).color)
     with pytest.raises(strata.InputError, match="camera: fovy_degrees: expected a number between 0 and 180"):
         scene.look_at((0, 0, 2), fovy=0)
 
@@ -78,11 +78,18 @@ def test_wrong_names_and_options_are_named():
         (lambda: strata.Scene("teapott"), strata.InputError, "teapot"),
         (lambda: strata.render(scene, "duel"), strata.InputError, "did you mean 'dual'"),
         (lambda: strata.render(scene, profile="geforc8"), strata.InputError, "did you mean 'geforce8'"),
-        (lambda: strata.render(scene, widht=3), TypeError, "did you mean 'width'"),
-        (lambda: strata.render(scene, width=0), strata.InputError, "width: expected 1 to 16384, found 0"),
-        (lambda: strata.render(scene, width="wide"), strata.InputError, "options: width: expected a value of its type, found 'wide'"),
-        (lambda: strata.render(scene, depth="d42"), strata.InputError, "options: depth: expected d16, d24, d32f"),
+        (lambda: strata.render(scene, siez=3), TypeError, "did you mean 'size'"),
+        (lambda: strata.render(scene, size=(0, 1)), strata.InputError, "options: size: expected WIDTHxHEIGHT such as 640x480, each from 1 to 16384, found '0x1'"),
+        (lambda: strata.render(scene, max_passes="many"), strata.InputError, "options: max_passes: expected a whole number from 0, found 'many'"),
+        (lambda: strata.render(scene, depth_format="d42"), strata.InputError, "options: depth_format: expected d16, d24, d32f"),
         (lambda: strata.render(scene, background=(1, 0)), strata.InputError, "background"),
     ]:
         with pytest.raises(error, match=said):
             ask()
+
+
+def test_options_that_exclude_each_other_are_refused():
+    with pytest.raises(strata.InputError, match="--shading pixel is valid only with --samples"):
+        strata.render(strata.Scene("teapot"), size=(8, 8), shading="pixel")
+    with pytest.raises(TypeError, match="camera"):
+        strata.render(strata.Scene("teapot"), size=(8, 8), camera="front")

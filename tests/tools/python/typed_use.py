@@ -6,7 +6,7 @@ import numpy.typing as npt
 import strata
 
 scene: strata.Scene = strata.Scene().add([[0, 0, 0], [1, 0, 0], [0, 1, 0]], color=(1, 0, 0, 0.5))
-rendering: strata.Rendering = strata.render(scene, "dual", profile="geforce8", width=64)
+rendering: strata.Rendering = strata.render(scene, "dual", profile="geforce8", size=(64, 64))
 pixels: npt.NDArray[Any] = rendering.color
 equal: bool = strata.compare(pixels, "reference.exr").equal
 ends: list[bool] = [layer.is_from_behind for layer in strata.layers(scene)]

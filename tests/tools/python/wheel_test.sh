@@ -27,9 +27,10 @@ wheels=("$folder"/wheel/*.whl)
 rm -rf "$folder/extension"
 cd "$folder/fresh"
 "$strata" render teapot --size 64x48 --algorithm dual,weighted_average --no-audit --stats stats.json -q -o there.png
-env -i PATH="$PATH" environment/bin/python -I - "$folder/fresh" <<'PYTHON'
+env -i PATH="$PATH" environment/bin/python -I - "$folder/fresh" "$strata" <<'PYTHON'
 import json
 import pathlib
+import subprocess
 import sys
 
 import strata
@@ -37,7 +38,7 @@ import strata
 folder = pathlib.Path(sys.argv[1])
 assert folder in pathlib.Path(strata.__file__).parents, strata.__file__
 for row in json.loads((folder / "stats.json").read_text()):
-    picture = strata.render(strata.Scene("teapot"), row["algorithm"], profile="geforce8", width=64, height=48)
+    picture = strata.render(strata.Scene("teapot"), row["algorithm"], profile="geforce8", size=(64, 48))
     assert picture.digest == row["digest"]["color"], (row["algorithm"], picture.digest, row["digest"])
     assert strata.compare(picture, picture).equal
 assert [array.shape for array in strata.read(str(folder / "there.dual.png")).arrays.values()] == [(48, 64, 4)]
@@ -48,6 +49,22 @@ try:
     raise AssertionError("expected an error for an unknown scene")
 except strata.InputError as error:
     assert "no-such-scene" in str(error), error
+
+# A keyword means what the option of the same name means.
+for options, words in [
+    (dict(), []),
+    (dict(clip_depth="zero_to_one", depth_order="greater", depth_format="d24"), "--clip-depth zero-to-one --depth-order greater --depth-format d24"),
+    (dict(samples=4, sample=2), "--samples 4 --sample 2"),
+    (dict(samples=4, shading="pixel", load_sample=0), "--samples 4 --shading pixel --load-sample 0"),
+    (dict(polygon_offset=(1, 2.5), scissor=(3, 4, 20, 10)), "--polygon-offset 1,2.5 --scissor 3,4,20,10"),
+    (dict(compare_epsilon="2ulp", vertex_path="fused", termination="fixed:2"), "--compare-epsilon 2ulp --vertex-path fused --termination fixed:2"),
+    (dict(background=(0.5, 0.25, 1, 0.5), sort="reverse", quantize_reference=False), "--background 0.5,0.25,1,0.5 --sort reverse --no-quantize-reference"),
+]:
+    words = words.split() if words else []
+    subprocess.run([sys.argv[2], "render", "teapot", "--size", "24x16", "--alpha", "0.5", *words, "--no-audit", "--stats", "stats.json", "-q", "-o", "there.png"], check=True)
+    row = json.loads((folder / "stats.json").read_text())[0]
+    picture = strata.render(strata.Scene("teapot"), "dual", profile="geforce8", size=(24, 16), alpha=0.5, audit=False, **options)
+    assert picture.digest == row["digest"]["color"], words
 PYTHON
 environment/bin/pip uninstall --quiet --yes strata
 echo "$(basename "${wheels[0]}"): $(($(stat -c %s "${wheels[0]}") / 1024)) KiB, installed, called and removed"

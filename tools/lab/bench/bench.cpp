@@ -7,9 +7,9 @@
 #include "tools/lab/bench/bench_report.h"
 #include "tools/lab/commands.h"
 #include "tools/lab/effects/effects.h"
+#include "tools/request/choices.h"
+#include "tools/request/parse.h"
 #include "tools/strata/messages.h"
-#include "tools/strata/options/choices.h"
-#include "tools/strata/options/parse.h"
 #include "tools/strata/render/memory.h"
 #include "tools/strata/table.h"
 
@@ -93,8 +93,8 @@ int show_effects_of(BenchOptions& options) {
     options.run.algorithms = options.algorithms;
     options.run.render.execution = options.executions.front();
     options.run.render.effects = options.effects.front();
-    options.run.simd = options.simds.front();
-    check_simd(options.run.simd);
+    options.run.render.simd = options.simds.front();
+    check_simd(options.run.render.simd);
     return show_effects(open_scenes(options).front(), options.repetitions.timed, options.json);
 }
 
@@ -124,21 +124,22 @@ Command add_bench(CLI::App& root) {
                     "one or more scenes: models' files (.gltf, .glb, .obj, .ply, .stl, .off), or built-in ones")
         ->required()
         ->type_name("...");
-    add_reading_options(*app, options->run.scene_options);
+    add_options(*app, options->run, OptionGroup::reading);
     add_choices(
         *app, options->algorithms, "--algorithm", names, values_of(names),
         "algorithms, separated by commas, or depth for one opaque depth pass (default: all; with --per-effect: dual)");
     add_profile_option(*app, options->run.profile);
-    add_device_options(*app, options->run);
-    add_order_options(*app, options->run.render);
-    add_view_options(*app, options->run);
+    for (const OptionGroup group : {OptionGroup::depth, OptionGroup::targets, OptionGroup::algorithm})
+        add_options(*app, options->run, group);
+    add_options(*app, options->run, OptionGroup::order);
+    add_options(*app, options->run, OptionGroup::view);
     add_choices(*app, options->executions, "--execution", executions, values_of(executions),
                 "ways of running (default replay)");
     add_choices(*app, options->simds, "--simd", simds, available_simd(), "instruction sets (default best)");
     add_choices(*app, options->effects, "--effects", effects, values_of(effects),
                 "needed, all, or needed,all (default needed)");
     add_memory_option(*app, options->run);
-    add_resource_options(*app, options->run);
+    add_options(*app, options->run, OptionGroup::resources);
     add_option(*app, options->repetitions.timed,
                {"--repeat", "N", "runs of each job (default 5)", "a whole number from 1"}, to_positive);
     add_option(*app, options->repetitions.warm_up,

@@ -10,7 +10,7 @@
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/text_file.h"
-#include "tools/strata/options/choices.h"
+#include "tools/request/choices.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {

@@ -21,7 +21,7 @@
 #include "tools/lab/cost/cost_table.h"
 #include "tools/lab/sweep/csv.h"
 #include "tools/lab/sweep/sweep.h"
-#include "tools/strata/options/choices.h"
+#include "tools/request/choices.h"
 #include "tools/strata/render/memory.h"
 #include "tools/strata/render/run.h"
 
@@ -258,13 +258,13 @@ Command add_cost(CLI::App& root) {
                     "one or more scenes: models' files (.gltf, .glb, .obj, .ply, .stl, .off), or built-in ones")
         ->required()
         ->type_name("...");
-    add_reading_options(*app, options->run.scene_options);
+    add_options(*app, options->run, OptionGroup::reading);
     add_choices(*app, options->knobs, "--knob", knob_choices(), cost_knobs(),
                 "knobs with commas between, or all (default all)");
     add_profile_option(*app, options->run.profile);
-    add_view_options(*app, options->run);
+    add_options(*app, options->run, OptionGroup::view);
     add_memory_option(*app, options->run);
-    add_resource_options(*app, options->run);
+    add_options(*app, options->run, OptionGroup::resources);
     add_option(*app, options->timing.rounds,
                {"--repeat", "N",
                 "rounds in which a cell is timed next to the default (default 5, and up to 25 while they last under 2 "

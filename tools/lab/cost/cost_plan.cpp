@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <functional>
 
-#include "tools/strata/options/algorithm_options.h"
-#include "tools/strata/options/choices.h"
+#include "tools/request/choices.h"
+#include "tools/request/option_fields.h"
 
 namespace strata::tools {
 
@@ -132,7 +132,9 @@ void transparency_cells(const CostBase& base, Cells& cells) {
     using peeling::AlgorithmOptions;
     const auto with = [&](const std::string& name, const AlgorithmOptions& choice = {}, int max_passes = 0) {
         std::string value = max_passes > 0 ? fmt::format("{} --max-passes {}", name, max_passes) : name;
-        for (const std::string& word : tools::words_of(choice)) value += ' ' + word;
+        tools::PictureRequest request;
+        request.render.algorithm = choice;
+        for (const std::string& word : tools::words_of(request, tools::OptionGroup::algorithm)) value += ' ' + word;
         add(cells, base, "transparency", value, [&](CostCell& cell) {
             cell.algorithm = peeling::find_algorithm(name);
             cell.options.algorithm = choice;

@@ -19,8 +19,8 @@
 #include "tools/lab/bench/bench_jobs.h"
 #include "tools/lab/bench/spread.h"
 #include "tools/lab/effects/effects_plan.h"
-#include "tools/strata/options/choices.h"
-#include "tools/strata/options/parse.h"
+#include "tools/request/choices.h"
+#include "tools/request/parse.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -137,7 +137,7 @@ Explained explain(const BenchScene& scene, const peeling::Algorithm& algorithm, 
     const BenchJob asked{.scene = &scene,
                          .algorithm = &algorithm,
                          .execution = scene.options.render.execution,
-                         .simd = scene.options.simd,
+                         .simd = scene.options.render.simd,
                          .effects = scene.options.render.effects};
     Explained explained{.algorithm = &algorithm, .refusal = "", .plan = {}, .times = {}};
     const BenchRun run = run_once(asked);

@@ -9,7 +9,7 @@
 #include "scenes/procedural/hard_cases/hard_case.h"
 #include "tools/lab/commands.h"
 #include "tools/lab/hard_cases/hard_sweep.h"
-#include "tools/strata/options/choices.h"
+#include "tools/request/choices.h"
 #include "tools/strata/options/options.h"
 #include "tools/strata/render/memory.h"
 #include "tools/strata/render/run.h"

@@ -12,7 +12,7 @@
 #include "peeling/render.h"
 #include "rasterizer/base/simd.h"
 #include "tools/lab/hard_cases/hard_truth.h"
-#include "tools/strata/options/choices.h"
+#include "tools/request/choices.h"
 
 namespace strata::tools {
 

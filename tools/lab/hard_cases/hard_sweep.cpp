@@ -12,7 +12,7 @@
 
 #include "peeling/algorithms/algorithm.h"
 #include "tools/lab/sweep/csv.h"
-#include "tools/strata/options/choices.h"
+#include "tools/request/choices.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {

@@ -25,7 +25,7 @@
 #include "tools/lab/commands.h"
 #include "tools/lab/hardware_check/hardware_report.h"
 #include "tools/lab/parallel_items.h"
-#include "tools/strata/options/names.h"
+#include "tools/request/names.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/table.h"

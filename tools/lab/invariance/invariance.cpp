@@ -22,7 +22,7 @@
 #include "tools/lab/invariance/invariance_row.h"
 #include "tools/lab/invariance/invariance_summary.h"
 #include "tools/lab/sweep/sweep.h"
-#include "tools/strata/options/choices.h"
+#include "tools/request/choices.h"
 #include "tools/strata/options/options.h"
 #include "tools/strata/render/memory.h"
 #include "tools/strata/render/run.h"
@@ -206,12 +206,12 @@ Command add_invariance(CLI::App& root) {
     app->add_option("SCENE", options->run.scene,
                     "a model's file (.gltf, .glb, .obj, .ply, .stl, .off), or a built-in scene (strata list scenes)")
         ->type_name("");
-    add_reading_options(*app, options->run.scene_options);
+    add_options(*app, options->run, OptionGroup::reading);
     for (const PlanKey& key : plan_keys())
         if (key.name != "scene") add_key(*app, *options, key);
     add_sweep_options(*app, *options);
     add_memory_option(*app, options->run);
-    add_resource_options(*app, options->run);
+    add_options(*app, options->run, OptionGroup::resources);
     app->footer(
         footer("  strata invariance teapot --size 64x48 --profile ideal --algorithm front_to_back --pair "
                "float32:perspective_rq "

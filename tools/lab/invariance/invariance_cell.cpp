@@ -9,7 +9,7 @@
 #include "rasterizer/rules/hypotheses.h"
 #include "scenes/camera.h"
 #include "scenes/files/profile_json.h"
-#include "tools/strata/options/names.h"
+#include "tools/request/names.h"
 #include "tools/strata/options/pack_options.h"
 #include "tools/strata/render/run.h"
 

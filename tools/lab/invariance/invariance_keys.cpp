@@ -3,8 +3,9 @@
 
 #include "peeling/registry.h"
 #include "tools/lab/invariance/invariance_plan.h"
-#include "tools/strata/options/choices.h"
-#include "tools/strata/options/values.h"
+#include "tools/request/choices.h"
+#include "tools/request/parse.h"
+#include "tools/request/values.h"
 
 namespace strata::tools {
 

@@ -9,8 +9,8 @@
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/strict_json.h"
-#include "tools/strata/options/names.h"
-#include "tools/strata/options/parse.h"
+#include "tools/request/names.h"
+#include "tools/request/parse.h"
 
 namespace strata::tools {
 

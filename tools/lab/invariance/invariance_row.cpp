@@ -10,7 +10,7 @@
 #include "peeling/registry.h"
 #include "tools/lab/invariance/invariance_summary.h"
 #include "tools/lab/sweep/csv.h"
-#include "tools/strata/options/choices.h"
+#include "tools/request/choices.h"
 
 namespace strata::tools {
 

@@ -12,7 +12,7 @@
 #include "tools/lab/commands.h"
 #include "tools/lab/sweep/csv.h"
 #include "tools/lab/sweep/sweep.h"
-#include "tools/strata/options/choices.h"
+#include "tools/request/choices.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/options/options.h"
 #include "tools/strata/render/memory.h"
@@ -87,7 +87,7 @@ MeasuredRow HazardSweep::measure(std::size_t row) {
     run.render.raster.interpolation = port.interpolation;
     const peeling::SampleHazard h =
         peeling::measure_samples(session.scene.list, session.view, session.profile, run.render, algorithm,
-                                 {.samples = run.samples, .loads = port.loads});
+                                 {.samples = run.sampling.samples, .loads = port.loads});
     ordered_json line = description(row);
     line.update({{"outcome", h.refusal ? "refused" : "done"},
                  {"refusal", h.refusal ? h.refusal->feature : ""},
@@ -144,7 +144,7 @@ std::string to_csv(const Lines& lines) {
 }
 
 int multisampling(MultisamplingOptions& options) {
-    if (options.run.samples == 1) throw CLI::ValidationError("--samples", "expected 2, 4 or 8, found 1");
+    if (options.run.sampling.samples == 1) throw CLI::ValidationError("--samples", "expected 2, 4 or 8, found 1");
     if (options.shard.count > 1 && options.run.output.empty()) throw CLI::ValidationError("--shard needs -o");
     complete(options.run);
     HazardSweep rows{options};
@@ -170,14 +170,14 @@ Command add_multisampling(CLI::App& root) {
     options->scenes = {"teapot", "planes", "volume-beam:slices=8", "random:triangles=200", "showroom"};
     options->run.default_algorithm = "front_to_back,dual,dual_independent,depth_units";
     options->run.profile = "ideal";
-    options->run.samples = 4;
+    options->run.sampling.samples = 4;
     options->run.render.width = 64, options->run.render.height = 48;
     options->run.render.alpha = 0.5f;
     app->add_option("SCENE", options->scenes,
                     "scenes: models' files, or built-in ones (default teapot planes volume-beam:slices=8 "
                     "random:triangles=200 showroom)")
         ->type_name("...");
-    add_reading_options(*app, options->run.scene_options);
+    add_options(*app, options->run, OptionGroup::reading);
     app->add_option_function<std::string>(
            "--algorithm",
            [options](const std::string& text) {
@@ -185,10 +185,12 @@ Command add_multisampling(CLI::App& root) {
            },
            "algorithms with commas between (default " + options->run.default_algorithm + ")")
         ->type_name("NAME[,NAME...]");
-    add_choice(*app, options->run.samples, "--samples", sample_counts, "samples per pixel, 2, 4 or 8 (default 4)");
+    add_choice(*app, options->run.sampling.samples, "--samples", sample_counts,
+               "samples per pixel, 2, 4 or 8 (default 4)");
     add_profile_option(*app, options->run.profile);
-    add_device_options(*app, options->run);
-    add_view_options(*app, options->run);
+    for (const OptionGroup group : {OptionGroup::depth, OptionGroup::targets, OptionGroup::algorithm})
+        add_options(*app, options->run, group);
+    add_options(*app, options->run, OptionGroup::view);
     add_path(*app, options->run.output,
              {"-o,--output", "FOLDER", "folder for results.jsonl, results.csv and timings.jsonl", "a folder"});
     add_shard_option(*app, options->shard);

@@ -12,8 +12,8 @@
 #include "tools/lab/probe/items.h"
 #include "tools/lab/probe/kit/kit.h"
 #include "tools/lab/probe/search/comparison.h"
+#include "tools/request/choices.h"
 #include "tools/strata/messages.h"
-#include "tools/strata/options/choices.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/table.h"
 

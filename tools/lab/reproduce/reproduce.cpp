@@ -5,7 +5,7 @@
 #include "rasterizer/base/input_error.h"
 #include "tools/lab/commands.h"
 #include "tools/lab/reproduce/figures.h"
-#include "tools/strata/options/names.h"
+#include "tools/request/names.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/table.h"
 

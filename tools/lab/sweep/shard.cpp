@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
+#include "tools/request/parse.h"
 #include "tools/strata/options/option.h"
-#include "tools/strata/options/parse.h"
 
 namespace strata::tools {
 

@@ -66,15 +66,16 @@ class Scene {
     [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return scene_.warnings; }
     // Of its colours: SceneOptions::color_space.
     [[nodiscard]] pipeline::ColorSpace space() const noexcept { return space_; }
-    // The camera for pictures of that size.
-    [[nodiscard]] View view(int width, int height) const;
+    // The camera for pictures of that size, in the clip convention of the options: clip_depth and depth_order of their
+    // raster state. The matrices of look() and the view of a pack are used as they are.
+    [[nodiscard]] View view(int width, int height, const rasterizer::RasterState& raster = {}) const;
 
   private:
     struct Orbit {
         double azimuth = 30, elevation = 20;
     };
     scenes::Scene scene_;
-    bool is_loaded_ = false;
+    bool is_loaded_ = false, is_pack_ = false;
     pipeline::ColorSpace space_ = pipeline::ColorSpace::encoded;
     std::optional<View> own_view_;
     std::optional<LookAt> look_at_;

@@ -1,10 +1,9 @@
-// source/options.cpp - converts keyword arguments to the settings of a frame; each name and each value is checked.
-#include <strata/rasterizer/base/enum_values.h>
+// source/options.cpp - converts keyword arguments to the settings of a frame, by the table of options.
 #include <strata/scenes/nearest_name.h>
+#include <strata/tools/request/complete.h>
+#include <strata/tools/request/option_fields.h>
 
-#include <functional>
-#include <map>
-#include <optional>
+#include <algorithm>
 
 #include "bindings.h"
 
@@ -12,118 +11,74 @@ namespace strata::python {
 
 namespace {
 
-template <class Enum>
-Enum named(const std::string& field, const py::handle& value) {
-    const auto text = value.cast<std::string>();
-    if (const auto found = enum_named<Enum>(text)) return *found;
-    std::string list;
-    for (const std::string_view name : enum_names<Enum>) (list += list.empty() ? "" : ", ") += name;
-    throw InputError("options", field, list,
-                     scenes::quoted_with_suggestion(text, {enum_names<Enum>.begin(), enum_names<Enum>.end()}));
+using tools::OptionField;
+using tools::OptionGroup;
+using tools::PictureRequest;
+
+// A scene has its own camera and is read before a frame has options.
+bool is_of_frame(const OptionField& field) {
+    return field.group != OptionGroup::reading && field.name != "camera" && field.name != "orbit";
 }
 
-// What keywords can change: the options of a frame and its samples, and the origin of the device's window.
-struct KeywordSettings {
-    RenderOptions options;
-    Multisampling sampling;
-    bool shades_pixels = false;
-    std::optional<rasterizer::Interpolation> interpolate;
-    std::optional<pipeline::Origin> origin;
-};
-using Setter = std::function<void(KeywordSettings&, const std::string& field, const py::handle& value)>;
-
-template <auto member>
-Setter number() {
-    return [](KeywordSettings& settings, const std::string&, const py::handle& value) {
-        using Number = std::remove_reference_t<decltype(settings.options.*member)>;
-        settings.options.*member = value.cast<Number>();
-    };
-}
-template <auto member, class Enum>
-Setter choice() {
-    return [](KeywordSettings& settings, const std::string& field, const py::handle& value) {
-        settings.options.*member = named<Enum>(field, value);
-    };
+// "drop_new" is "drop-new".
+std::string word_of(const OptionField& field, std::string text) {
+    const auto dashed = [](char c) { return c == '_' ? '-' : c; };
+    for (const std::string& word : field.words)
+        if (std::ranges::equal(word, text, {}, dashed, dashed)) return word;
+    return text;
 }
 
-const std::map<std::string, Setter>& setters() {
-    using O = RenderOptions;
-    static const std::map<std::string, Setter> all{
-        {"width", number<&O::width>()},
-        {"height", number<&O::height>()},
-        {"depth", choice<&O::depth, pipeline::DepthFormat>()},
-        {"depth_path", choice<&O::depth_path, rasterizer::DepthPath>()},
-        {"reference_path", choice<&O::reference_path, rasterizer::DepthPath>()},
-        {"quantize_reference", number<&O::quantize_reference>()},
-        {"color_format", choice<&O::color_format, pipeline::Format>()},
-        {"result_format", choice<&O::result_format, pipeline::Format>()},
-        {"back_format", choice<&O::back_format, pipeline::Format>()},
-        {"alpha", number<&O::alpha>()},
-        {"max_passes", number<&O::max_passes>()},
-        {"formulation", choice<&O::formulation, pipeline::Formulation>()},
-        {"execution", choice<&O::execution, pipeline::Execution>()},
-        {"fragment_memory", number<&O::fragment_memory>()},
-        {"tile_size", number<&O::tile_size>()},
-        {"threads", number<&O::threads>()},
-        {"simd", choice<&O::simd, Simd>()},
-        {"effects", choice<&O::effects, pipeline::Effects>()},
-        {"audit", number<&O::audit>()},
-        {"background",
-         [](KeywordSettings& settings, const std::string&, const py::handle& value) {
-             const auto c = value.cast<std::array<float, 4>>();
-             settings.options.background = {c[0], c[1], c[2], c[3]};
-         }},
-        {"samples",
-         [](KeywordSettings& settings, const std::string& field, const py::handle& value) {
-             const int samples = settings.sampling.samples = value.cast<int>();
-             if (samples != 1 && samples != 2 && samples != 4 && samples != 8)
-                 throw InputError("options", field, "1, 2, 4 or 8", std::to_string(samples));
-         }},
-        {"shading",
-         [](KeywordSettings& settings, const std::string& field, const py::handle& value) {
-             const auto text = value.cast<std::string>();
-             if (text != "sample" && text != "pixel")
-                 throw InputError("options", field, "sample or pixel", "'" + text + "'");
-             settings.shades_pixels = text == "pixel";
-         }},
-        {"interpolate",
-         [](KeywordSettings& settings, const std::string& field, const py::handle& value) {
-             const auto where = named<rasterizer::Interpolation>(field, value);
-             if (where == rasterizer::Interpolation::sample)
-                 throw InputError("options", field, "centre or centroid", "'sample'");
-             settings.interpolate = where;
-         }},
-        {"origin", [](KeywordSettings& settings, const std::string& field,
-                      const py::handle& value) { settings.origin = named<pipeline::Origin>(field, value); }},
-    };
-    return all;
+// The text of a value: True is "true", (0.1, 0.2, 0.3) is "0.1,0.2,0.3", and a size (640, 480) is "640x480".
+std::string text_of(const OptionField& field, const py::handle& value) {
+    if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
+    if (py::isinstance<py::str>(value)) return word_of(field, value.cast<std::string>());
+    if (!py::isinstance<py::sequence>(value)) return py::str(value).cast<std::string>();
+    std::string text;
+    for (const py::handle part : value) {
+        if (!text.empty()) text += field.name == "size" ? 'x' : ',';
+        text += py::str(part).cast<std::string>();
+    }
+    return text;
+}
+
+const OptionField& field_of(const std::string& keyword) {
+    const OptionField* field = tools::find_option(keyword);
+    if (field != nullptr && is_of_frame(*field)) return *field;
+    std::vector<std::string> names;
+    for (const OptionField& known : tools::option_fields())
+        if (is_of_frame(known)) names.push_back(known.name);
+    for (std::string& name : names) std::ranges::replace(name, '-', '_');
+    throw py::type_error("expected an option of the frame, found " +
+                         scenes::quoted_with_suggestion(keyword, {names.begin(), names.end()}));
+}
+
+PictureRequest request_of(const py::kwargs& keywords) {
+    PictureRequest request;
+    for (const auto& [key, value] : keywords) {
+        const auto keyword = key.cast<std::string>();
+        const OptionField& field = field_of(keyword);
+        if (value.is_none()) continue;
+        const std::string text = text_of(field, value);
+        if (!field.set(request, text)) throw InputError("options", keyword, field.expected, "'" + text + "'");
+    }
+    if (!request.scene_options.alpha.empty())
+        throw InputError("options", "alpha", "a number from 0 to 1", "alphas of materials");
+    return request;
 }
 
 }  // namespace
 
 Settings settings_of(const py::kwargs& keywords, DeviceProfile& profile) {
-    KeywordSettings settings;
-    for (const auto& [key, value] : keywords) {
-        const auto name = key.cast<std::string>();
-        const auto found = setters().find(name);
-        if (found == setters().end()) {
-            std::vector<std::string_view> names;
-            for (const auto& [known, setter] : setters()) names.push_back(known);
-            throw py::type_error("expected an option of the frame, found " +
-                                 scenes::quoted_with_suggestion(name, names));
-        }
-        try {
-            found->second(settings, name, value);
-        } catch (const py::cast_error&) {
-            throw InputError("options", name, "a value of its type", py::repr(value).cast<std::string>());
-        }
-    }
-    if (settings.origin) profile = with_origin(profile, *settings.origin);
-    if (settings.interpolate && !settings.shades_pixels)
-        throw InputError("options", "interpolate", "shading='pixel' with it", "none");
-    if (settings.shades_pixels)
-        settings.options.raster.interpolation = settings.interpolate.value_or(rasterizer::Interpolation::centre);
-    return {settings.options, settings.sampling};
+    PictureRequest request = request_of(keywords);
+    if (const auto found = tools::option_conflict(request))
+        throw InputError("options", found->option, found->sentence, "");
+    if (request.origin) profile = with_origin(profile, *request.origin);
+    tools::take_interpolation(request);
+    tools::take_clip_convention(request, profile);
+    tools::take_sample(request, profile);
+    tools::take_background(request);
+    if (request.sample) request.sampling.samples = 1;
+    return {request.render, request.sampling};
 }
 
 }  // namespace strata::python

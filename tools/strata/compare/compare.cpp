@@ -18,12 +18,12 @@
 #include "tools/oracle/compare/report.h"
 #include "tools/oracle/pack/compare_packs.h"
 #include "tools/oracle/picture/stored_like.h"
+#include "tools/request/choices.h"
 #include "tools/strata/command.h"
 #include "tools/strata/compare/compare_pages.h"
 #include "tools/strata/compare/compare_scene.h"
 #include "tools/strata/compare/tolerances.h"
 #include "tools/strata/messages.h"
-#include "tools/strata/options/choices.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/options/option_readers.h"
 #include "tools/strata/render/run.h"
@@ -175,7 +175,7 @@ int compared(const CompareOptions& options) {
     if (scenes::is_pack(options.reference) && std::filesystem::is_directory(options.candidate))
         return compare_folders(options);
     if (asks_for_verdict(options) && !takes_own_picture(options)) {
-        scenes::expect_for_a_pixel(bytes_of_a_verdict(options.run.samples));
+        scenes::expect_for_a_pixel(bytes_of_a_verdict(options.run.sampling.samples));
         oracle::Picture picture = oracle::read_picture(options.candidate, options.layout);
         state_alpha(picture, options.alpha_form);
         const bool has_alpha = options.tolerances.channels == oracle::ColorChannels::all;
@@ -305,15 +305,17 @@ Command add_compare(CLI::App& root) {
     app->add_flag("--json", options->json, "one JSON document instead of text");
     add_memory_option(*app, options->run);
     const std::vector<CLI::Option*> of_pictures = app->get_options();
-    add_reading_options(*app, options->run.scene_options);
+    add_options(*app, options->run, OptionGroup::reading);
     add_profile_option(*app, options->run.profile);
-    add_origin_option(*app, options->run.origin);
-    add_device_options(*app, options->run);
-    add_order_options(*app, options->run.render);
-    add_view_options(*app, options->run);
-    add_choice(*app, options->run.samples, "--samples", sample_counts,
+    add_options(*app, options->run, OptionGroup::origin);
+    for (const OptionGroup group : {OptionGroup::depth, OptionGroup::targets, OptionGroup::algorithm})
+        add_options(*app, options->run, group);
+    add_options(*app, options->run, OptionGroup::order);
+    add_options(*app, options->run, OptionGroup::view);
+    describe_size_of_picture(*app);
+    add_choice(*app, options->run.sampling.samples, "--samples", sample_counts,
                "samples per pixel of the port, whose resolved picture is compared (default 1)");
-    add_shading_options(*app, options->run);
+    add_options(*app, options->run, OptionGroup::shading);
     app->footer(
         "Examples:\n"
         "  strata render teapot --size 64x64 -o teapot.exr && strata compare teapot.exr teapot.exr\n"

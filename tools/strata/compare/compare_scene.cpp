@@ -72,7 +72,7 @@ oracle::Picture drawn_by(const peeling::Algorithm& algorithm, const Session& ses
                          const oracle::Picture& candidate) {
     peeling::RenderOptions options = run.render;
     options.audit = options.keep_layers = false;
-    peeling::SampledRenderer renderer{session.scene.list, session.view, session.profile, options, sampling(run)};
+    peeling::SampledRenderer renderer{session.scene.list, session.view, session.profile, options, sampling_of(run)};
     peeling::RenderResult result = renderer.render(algorithm);
     if (result.refusal) throw pipeline::Refused{session.profile, *std::move(result.refusal)};
     oracle::Picture picture{.file = run.scene, .targets = {oracle::as_target(result.frame.color, "color")}};
@@ -259,8 +259,9 @@ std::vector<std::string> forgotten(const SceneQuestion& question, const oracle::
 // The verdict on a picture with several samples per pixel.
 int compare_resolved(const SceneQuestion& question, const Session& session, const oracle::Picture& candidate) {
     const oracle::TargetImage& colors = colors_of(candidate);
-    const oracle::RunInput input{session.scene.list,  session.view,           session.profile,
-                                 question.run.render, sampling(question.run), question.run.scene_options.color_space};
+    const oracle::RunInput input{session.scene.list,        session.view,
+                                 session.profile,           question.run.render,
+                                 sampling_of(question.run), question.run.scene_options.color_space};
     const oracle::SamplesVerdict verdict = [&] {
         Progress bar("verdict");
         return judge_samples(input, {.colors = colors,
@@ -314,7 +315,7 @@ std::string if_linear(SceneQuestion question, const oracle::verdict::Verdict& fo
 int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate) {
     const oracle::TargetImage& colors = colors_of(candidate);
     const Session session = open_at_size(question, colors, candidate.file);
-    if (question.run.samples > 1) return compare_resolved(question, session, candidate);
+    if (question.run.sampling.samples > 1) return compare_resolved(question, session, candidate);
     const pipeline::DrawList& list = session.scene.list;
     const oracle::RunInput input{
         list, session.view, session.profile, question.run.render, {}, question.run.scene_options.color_space};

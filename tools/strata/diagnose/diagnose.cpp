@@ -94,8 +94,9 @@ struct OpenCase {
     }
     [[nodiscard]] const peeling::Algorithm& algorithm() const { return *options.run.algorithms[0]; }
     [[nodiscard]] oracle::RunInput input() const {
-        return {session.scene.list, session.view,          session.profile,
-                options.run.render, sampling(options.run), options.run.scene_options.color_space};
+        return {session.scene.list,       session.view,
+                session.profile,          options.run.render,
+                sampling_of(options.run), options.run.scene_options.color_space};
     }
     [[nodiscard]] oracle::Comparison comparison() const {
         return oracle::compare(stored_like(mistake_renderer->right(), candidate, input().space), candidate,

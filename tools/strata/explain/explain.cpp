@@ -74,7 +74,7 @@ std::string explained(ExplainOptions& options, const ExplainOne& explain_one) {
     std::vector<Explained> histories;
     for (const peeling::Algorithm* algorithm : options.run.algorithms)
         histories.push_back(explain_one(oracle::RunInput{session.scene.list, session.view, session.profile,
-                                                         options.run.render, sampling(options.run)},
+                                                         options.run.render, sampling_of(options.run)},
                                         *algorithm));
     if constexpr (std::is_same_v<Explained, oracle::History>)
         if (!options.svg.empty()) scenes::write_file(options.svg, oracle::to_svg(histories));
@@ -102,7 +102,7 @@ int explain(ExplainOptions& options) {
         throw CLI::ValidationError(
             "--pixel", fmt::format("expected a pixel from 0,0 to {},{}, found {}", render.width - 1, render.height - 1,
                                    options.pixel ? fmt::format("{},{}", x, y) : "none"));
-    if (options.run.samples > 1 && !options.run.sample) {
+    if (options.run.sampling.samples > 1 && !options.run.sample) {
         if (!options.svg.empty()) throw CLI::ValidationError("--svg shows one sample: add --sample N");
         print(explained<oracle::SampledHistory>(options, [&](const oracle::RunInput& input, const auto& algorithm) {
             return oracle::explain_samples(input, algorithm, x, y);

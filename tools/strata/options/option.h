@@ -8,8 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/strata/options/names.h"
-#include "tools/strata/options/parse.h"
+#include "tools/request/names.h"
+#include "tools/request/parse.h"
+#include "tools/request/words.h"
 
 namespace strata::tools {
 
@@ -42,37 +43,6 @@ inline CLI::Option* add_path(CLI::App& app, std::string& target, const OptionTex
         target = given;
     };
     return app.add_option_function<std::string>(text.name, fill, text.help)->type_name(text.type);
-}
-
-// A word and its value.
-template <class T>
-struct Choice {
-    std::string name;
-    T value;
-};
-
-template <class T>
-[[nodiscard]] std::vector<std::string> names_of(const std::vector<Choice<T>>& choices) {
-    std::vector<std::string> names;
-    for (const auto& choice : choices) names.push_back(choice.name);
-    return names;
-}
-
-// The word of a value; empty if the value is not in the list.
-template <class T>
-[[nodiscard]] std::string name_of(const std::vector<Choice<T>>& choices, const T& value) {
-    for (const auto& choice : choices) {
-        if (choice.value == value) return choice.name;
-    }
-    return "";
-}
-
-template <class T>
-[[nodiscard]] std::optional<T> to_choice(const std::vector<Choice<T>>& choices, std::string_view name) {
-    for (const auto& choice : choices) {
-        if (choice.name == name) return choice.value;
-    }
-    return std::nullopt;
 }
 
 // Parses words separated by commas that must be among `choices`, without repetition. `all` means `everything` unless it

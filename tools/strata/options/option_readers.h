@@ -9,21 +9,12 @@
 #include <string_view>
 #include <vector>
 
-#include "peeling/algorithms/algorithm.h"
+#include "tools/strata/options/options.h"
 
 namespace strata::tools {
 
-// The options that only some algorithms read, in the order of --help.
-[[nodiscard]] std::vector<std::string_view> options_of_algorithms();
-
-// True for other options, and if the algorithm reads this one. `given` because --weight counts only with --tail
-// weighted in some algorithms.
-[[nodiscard]] bool reads(const peeling::Algorithm& algorithm, std::string_view option,
-                         const peeling::AlgorithmOptions& given);
-
 // Throws CLI::ValidationError if an option was given that none of the algorithms reads.
-void refuse_unread(const CLI::App& app, const std::vector<const peeling::Algorithm*>& algorithms,
-                   const peeling::AlgorithmOptions& given);
+void refuse_unread(const CLI::App& app, const Algorithms& algorithms, const PictureRequest& request);
 
 // Throws CLI::ValidationError if an option or argument was given that is not in `read`, for example "--size has no
 // effect with --check". Options of messages are always read.

@@ -12,53 +12,40 @@
 #include "scenes/camera.h"
 #include "scenes/files/image_io.h"
 #include "scenes/scene.h"
-#include "tools/strata/options/values.h"
+#include "tools/request/picture_request.h"
+#include "tools/strata/options/option.h"
 
 namespace strata::tools {
 
-// The options of a command. Every default is that of scenes/reference/reports.md 6.
-struct RunOptions {
+using Algorithms = std::vector<const peeling::Algorithm*>;
+
+// The options of a command: those of its picture, and what it reads, writes and may use.
+struct RunOptions : PictureRequest {
     // The start of the process, as early as this program can read the clock; statistics report the seconds since.
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
     std::string scene;
-    scenes::SceneOptions scene_options;
     const CLI::App* app = nullptr;  // its options of single algorithms are refused if no chosen algorithm reads them
     std::string default_algorithm = "dual";
-    bool takes_one_algorithm = false;                   // for the help; the command checks it
-    std::vector<const peeling::Algorithm*> algorithms;  // at least one after parsing, without repetition
-    std::string profile = "geforce8";                   // a name or a file
-    std::optional<pipeline::Origin> origin;             // --origin; empty: the profile's
-    std::optional<rasterizer::ClipDepth> clip_depth;    // --clip-depth, else a pack's; empty: the profile's
-    std::optional<rasterizer::DepthOrder> depth_order;  // --depth-order, likewise; open_session sets render.raster
-    std::string camera;                                 // --camera; empty: the view is an orbit
-    std::string files_in;  // --from: the folder of a camera's file; empty: the path is used unchanged
-    std::optional<Orbit> orbit;
-    std::optional<pipeline::Rgba>
-        background;                      // --background: sRGB, not premultiplied; empty: the default, black or a pack's
+    bool takes_one_algorithm = false;    // for the help; the command checks it
+    Algorithms algorithms;               // at least one after parsing, without repetition
+    std::string profile = "geforce8";    // a name or a file
+    std::string files_in;                // --from: the folder of a camera's file; empty: the path is used unchanged
     bool names_camera_of_scene = false;  // --camera is a camera of the scene, not a file
     bool takes_own_view = false;         // no view option is given, and the scene contains a view
     std::optional<scenes::ClipConvention> pack_convention;  // of the view that the scene contains, if it is a pack
-    peeling::RenderOptions render;
-    // The size is that of a candidate's picture, and --size may only confirm it.
-    bool takes_size_of_picture = false, states_size = false;
-    int samples = 1;                                                        // --samples: 1, 2, 4 or 8 a pixel
-    std::optional<int> sample;                                              // --sample: the frame of this one alone
-    bool shades_pixels = false;                                             // --shading pixel
-    std::optional<rasterizer::Interpolation> interpolate;                   // --interpolate: centre or centroid
-    pipeline::LoadedSample load_sample = pipeline::LoadedSample::own;       // --load-sample: of geometry passes
-    pipeline::LoadedSample composite_sample = pipeline::LoadedSample::own;  // --composite-sample: of full-screen ones
-    pipeline::Resolve resolve = pipeline::Resolve::box;
-    std::optional<std::uint64_t> max_memory{};  // --max-memory in bytes; empty: the free memory of the machine
-    Simd simd = Simd::best;
-    std::string stats;                        // --stats; empty: none, "-": standard output
-    std::string output;                       // -o; empty: none, "-": standard output
-    std::optional<scenes::ImageFile> format;  // --format: the file format of a picture on standard output
+    bool takes_size_of_picture = false;  // the size is that of a candidate's picture, and --size may only confirm it
+    std::optional<std::uint64_t> max_memory{};  // --max-memory in bytes; empty: the free memory of the computer
+    std::string stats;                          // --stats; empty: none, "-": standard output
+    std::string output;                         // -o; empty: none, "-": standard output
+    std::optional<scenes::ImageFile> format;    // --format: the file format of a picture on standard output
 };
 
-// Adds --shading and --interpolate.
-void add_shading_options(CLI::App& app, RunOptions& options);
+// Adds the options of a group of the table (tools/request/option_fields.h), in its order. --help and messages are made
+// from the table.
+void add_options(CLI::App& app, PictureRequest& request, OptionGroup group);
+void describe_size_of_picture(CLI::App& app);  // in the help of a command in which --size may only confirm it
 // Adds SCENE, --scene, --color-space and --no-light.
-void add_scene_options(CLI::App& app, std::string& scene, scenes::SceneOptions& options);
+void add_scene_options(CLI::App& app, std::string& scene, PictureRequest& request);
 
 // Adds SCENE and all options on which result bits depend.
 void add_picture_options(CLI::App& app, RunOptions& options);
@@ -67,18 +54,9 @@ void take_scene(RunOptions& options, const std::string& scene);
 // Returns the algorithm of that name. Throws CLI::ValidationError for an unknown name.
 [[nodiscard]] const peeling::Algorithm* to_algorithm(const std::string& name);
 
-// Adds the options on which no result bit depends (--execution, --fragment-memory, --simd, --effects, --tile,
-// --threads).
-void add_execution_options(CLI::App& app, RunOptions& options);
-
-// Parts of the two functions above, for a command in which the other options take lists.
-void add_reading_options(CLI::App& app, scenes::SceneOptions& options);  // --scene, --color-space, --no-light
-void add_device_options(CLI::App& app, RunOptions& options);             // --depth-format ... --stochastic-seed
-void add_order_options(CLI::App& app, peeling::RenderOptions& options);  // --formulation, --sorted, --sort
+// Adds the options of execution and resources.
+void add_execution_options(CLI::App& app, PictureRequest& request);
 void add_profile_option(CLI::App& app, std::string& profile);
-void add_origin_option(CLI::App& app, std::optional<pipeline::Origin>& origin);
-void add_view_options(CLI::App& app, RunOptions& options);      // --size ... --background
-void add_resource_options(CLI::App& app, RunOptions& options);  // --fragment-memory, --tile, --threads
 
 // Throws CLI::ValidationError if this processor lacks the instruction set.
 void check_simd(Simd simd);
@@ -96,7 +74,7 @@ void add_format_option(CLI::App& app, RunOptions& options, const std::string& he
 void complete(RunOptions& options);
 
 // The samples that a command renders: one with --sample, or all.
-[[nodiscard]] peeling::Multisampling sampling(const RunOptions& options) noexcept;
+[[nodiscard]] peeling::Multisampling sampling_of(const RunOptions& options) noexcept;
 
 // The command that renders the same picture of one algorithm again, in a unique spelling. It contains every option on
 // which a bit depends and that was given or differs from its default, and files without their folder; it does not
@@ -105,7 +83,7 @@ void complete(RunOptions& options);
                                             const peeling::Algorithm& algorithm);
 // The same for several algorithms.
 [[nodiscard]] std::string canonical_command(const std::string& verb, const RunOptions& options,
-                                            const std::vector<const peeling::Algorithm*>& algorithms);
+                                            const Algorithms& algorithms);
 
 [[nodiscard]] std::vector<std::string> algorithm_names();
 

@@ -16,12 +16,9 @@ void take_pack_state(RunOptions& options, const std::string& scene) {
     const oracle::PackState state =
         oracle::read_state(manifest, folder + "/manifest.json", scenes::load_profile(options.profile));
     options.render = state.options;
-    options.samples = state.sampling.samples;
-    options.resolve = state.sampling.resolve;
-    options.load_sample = state.sampling.loads;
-    options.composite_sample = state.sampling.composites;
+    options.sampling = state.sampling;
     options.shades_pixels =
-        options.samples > 1 && options.render.raster.interpolation != rasterizer::Interpolation::sample;
+        options.sampling.samples > 1 && options.render.raster.interpolation != rasterizer::Interpolation::sample;
     options.scene_options.color_space = scenes::color_space_of(folder, manifest);
     options.clip_depth = options.render.raster.clip_depth;
     options.depth_order = options.render.raster.depth_order;

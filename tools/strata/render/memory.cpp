@@ -25,7 +25,7 @@ bool is_surely_enough(const RunOptions& options, std::uint64_t limit, std::uint6
     constexpr std::uint64_t most_bytes_a_pixel = 512;
     const std::uint64_t pixels =
         std::uint64_t{static_cast<unsigned>(options.render.width)} * static_cast<unsigned>(options.render.height);
-    const auto samples = static_cast<std::uint64_t>(options.samples);
+    const auto samples = static_cast<std::uint64_t>(options.sampling.samples);
     const std::uint64_t most =
         (1 + samples) * held + samples * pixels * most_bytes_a_pixel + 2 * options.render.fragment_memory;
     return !options.max_memory && !options.render.keep_layers && most < limit;
@@ -42,7 +42,7 @@ void check_memory(const RunOptions& options, const Session& session, const peeli
     if (is_surely_enough(options, *limit, held)) return;
     const std::uint64_t need = held + writer_bytes(options) +
                                peeling::memory_need(session.scene.list, session.view, session.profile, options.render,
-                                                    algorithm, sampling(options))
+                                                    algorithm, sampling_of(options))
                                    .total();
     if (need <= *limit) return;
     throw CLI::ValidationError("--max-memory",

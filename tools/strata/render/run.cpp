@@ -18,11 +18,11 @@
 #include "scenes/files/profile_json.h"
 #include "scenes/files/unfinished_files.h"
 #include "scenes/inside_folder.h"
-#include "scenes/numbers/srgb_encode.h"
 #include "scenes/read_files.h"
 #include "tools/oracle/picture/picture.h"
+#include "tools/request/complete.h"
+#include "tools/request/names.h"
 #include "tools/strata/messages.h"
-#include "tools/strata/options/names.h"
 #include "tools/strata/progress.h"
 #include "tools/strata/render/memory.h"
 #include "tools/strata/render/stats.h"
@@ -79,25 +79,14 @@ void warn_of_opaque(const RunOptions& options, const scenes::Scene& scene) {
                 "transparent, --alpha MATERIAL=0.5 one material");
 }
 
-// For --sample.
-void take_sample(RunOptions& options, const pipeline::DeviceProfile& profile) {
-    if (const auto lacking = pipeline::check_multisampling(profile, options.samples))
-        throw CLI::ValidationError("--samples", lacking->message(profile));
-    pipeline::set_sample(options.render.raster, profile.sample_positions, options.samples,
-                         static_cast<std::size_t>(*options.sample));
-}
-
-// The convention of the options, else of the profile. An option that repeats the profile's is dropped, so that
-// canonical_command has one spelling, unless it overrides a pack's.
-void take_clip_convention(RunOptions& options, const pipeline::DeviceProfile& profile) {
-    rasterizer::RasterState& raster = options.render.raster;
-    raster.clip_depth = options.clip_depth.value_or(profile.clip_depth);
-    raster.depth_order = options.depth_order.value_or(profile.depth_order);
+// An option that repeats the profile's convention is dropped, so that canonical_command has one spelling, unless it
+// overrides a pack's.
+void drop_repeated_convention(RunOptions& options, const pipeline::DeviceProfile& profile,
+                              const scenes::ClipConvention& taken) {
     const scenes::ClipConvention of_profile{profile.clip_depth, profile.depth_order},
         of_pack = options.pack_convention.value_or(of_profile);
-    if (raster.clip_depth == of_profile.clip_depth && raster.clip_depth == of_pack.clip_depth)
-        options.clip_depth.reset();
-    if (raster.depth_order == of_profile.depth_order && raster.depth_order == of_pack.depth_order)
+    if (taken.clip_depth == of_profile.clip_depth && taken.clip_depth == of_pack.clip_depth) options.clip_depth.reset();
+    if (taken.depth_order == of_profile.depth_order && taken.depth_order == of_pack.depth_order)
         options.depth_order.reset();
 }
 
@@ -110,8 +99,6 @@ void check_reversed_once(const rasterizer::RasterState& raster, rasterizer::Dept
                                    "expected NEAR below FAR with --depth-order greater, which already reverses depth: "
                                    "reversed twice, the farthest surfaces would be drawn");
 }
-
-pipeline::Rgba premultiplied(const pipeline::Rgba& c) { return {c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]}; }
 
 }  // namespace
 
@@ -141,8 +128,7 @@ void take_size(RunOptions& options, const oracle::TargetImage& picture, const st
 }
 
 Session open_session(RunOptions& options) {
-    check_simd(options.simd);
-    options.render.simd = options.simd;
+    check_simd(options.render.simd);
     Session session;
     // The profile is loaded first: it is small, and its errors are reported before a large scene is read.
     session.profile = scenes::load_profile(options.profile);
@@ -150,8 +136,8 @@ Session open_session(RunOptions& options) {
         say_warning(fmt::format("{}: the values of {} were never measured; results that depend on them are unverified",
                                 options.profile, fmt::join(open, ", ")));
     if (options.origin) session.profile = with_origin(session.profile, *options.origin);
-    take_clip_convention(options, session.profile);
-    if (options.sample && options.samples > 1) take_sample(options, session.profile);
+    drop_repeated_convention(options, session.profile, take_clip_convention(options, session.profile));
+    take_sample(options, session.profile);
     const auto start = std::chrono::steady_clock::now();
     session.scene = scenes::load_scene(options.scene, options.scene_options);
     // Refused before the frame is drawn; AtomicFile refuses other results.
@@ -171,10 +157,7 @@ Session open_session(RunOptions& options) {
     session.view =
         scenes::with_clip_convention(find_view(options, session.scene), own, {raster.clip_depth, raster.depth_order});
     check_sorted(options, session.scene);
-    // The option's value is in sRGB, not premultiplied; the frame blends premultiplied colours in its own colour space.
-    if (options.background)
-        options.render.background =
-            premultiplied(scenes::from_encoded(*options.background, options.scene_options.color_space));
+    take_background(options);
     return session;
 }
 
@@ -230,7 +213,7 @@ void report(const RunOptions& options, const std::vector<RunSummary>& runs, cons
                              .width = options.render.width,
                              .height = options.render.height,
                              .execution = options.render.execution,
-                             .simd = options.simd,
+                             .simd = options.render.simd,
                              .fragment_memory = options.render.fragment_memory,
                              .audited = options.render.audit,
                              .total_seconds = total.count()};
@@ -261,11 +244,11 @@ int run_algorithms(RunOptions& options, const Writer& write) {
     for (const peeling::Algorithm* algorithm : options.algorithms) check_memory(options, session, *algorithm);
     // One renderer is used for all algorithms, so geometry is transformed and set up once.
     peeling::SampledRenderer renderer(session.scene.list, session.view, session.profile, options.render,
-                                      sampling(options));
+                                      sampling_of(options));
     std::vector<RunSummary> runs;
     for (const peeling::Algorithm* algorithm : options.algorithms) {
         scenes::set_interrupt_message(undone(options, runs.size()));
-        runs.push_back(run_one(session, *algorithm, renderer, sampling(options).samples, write));
+        runs.push_back(run_one(session, *algorithm, renderer, sampling_of(options).samples, write));
     }
     scenes::set_interrupt_message("");
     report(options, runs, session.profile.name);

@@ -6,7 +6,7 @@
 
 #include "peeling/render.h"
 #include "rasterizer/base/enum_values.h"
-#include "tools/strata/options/choices.h"
+#include "tools/request/choices.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {

@@ -98,7 +98,7 @@ Command add_report(CLI::App& root) {
     options->run.default_algorithm = "all";
     add_picture_options(*app, options->run);
     add_memory_option(*app, options->run);
-    add_resource_options(*app, options->run);
+    add_options(*app, options->run, OptionGroup::resources);
     add_option(*app, options->region,
                {"--region", "X,Y,W,H", "show these pixels of the frame of --size alone (default: all)",
                 "four whole numbers such as 400,300,200,150: left, top, width and height"},

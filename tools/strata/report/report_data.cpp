@@ -122,8 +122,8 @@ class Builder {
         : options_{options},
           session_{session},
           region_{region},
-          samples_{sampling(options).samples},
-          renderer_{session.scene.list, session.view, session.profile, options.render, sampling(options)} {
+          samples_{sampling_of(options).samples},
+          renderer_{session.scene.list, session.view, session.profile, options.render, sampling_of(options)} {
         check_samples();
     }
 
@@ -169,7 +169,7 @@ class Builder {
         if (samples_ == 1) return;
         if (const auto lacking = pipeline::check_multisampling(session_.profile, samples_))
             throw CLI::ValidationError("--samples", lacking->message(session_.profile));
-        for (const pipeline::LoadedSample loads : {options_.load_sample, options_.composite_sample})
+        for (const pipeline::LoadedSample loads : {options_.sampling.loads, options_.sampling.composites})
             if (loads == pipeline::LoadedSample::resolved)
                 throw CLI::ValidationError(
                     "a report cannot show --load-sample or --composite-sample resolved; use own or 0");

@@ -141,7 +141,7 @@ TEST_CASE("a wrong argument gives exit status 2 and one error message with the e
         {{"render", "teapot", "-o", ""}, "strata: -o needs a file name or -"},
         {{"layers", "teapot", "--deep", ""}, "strata: --deep needs a file name"},
         {{"render", "teapot", "--stats", ""}, "strata: --stats needs a file name or -"},
-        {{"render", "teapot", "--camera", ""}, "strata: --camera needs a camera's name or file"},
+        {{"render", "teapot", "--camera", ""}, "strata: --camera: expected a camera's name or file, found ''"},
         {{"bench", "teapot", "-o", ""}, "strata: -o needs a file name"},
         {{"bench", "teapot", "--per-effect", "-o", "x.json"},
          "strata: --per-effect goes with neither -o nor --baseline"},

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/tools/program.h"
+#include "tools/request/option_fields.h"
 
 using namespace strata::test;
 
@@ -68,4 +69,17 @@ TEST_CASE("the options --help and --version succeed and write to standard output
     CHECK(ended.status == 0);
     CHECK(ended.out.find("strata") != std::string::npos);
     CHECK(ended.err.empty());
+}
+
+TEST_CASE("render has every option of the table in its help and a message for a value that is none") {
+    const Folder folder;
+    const std::string help = run_strata(folder, {"render", "--help", "all"}).out;
+    for (const strata::tools::OptionField& field : strata::tools::option_fields()) {
+        INFO(field.name);
+        CHECK(help.find("\n  " + field.option() + " ") != std::string::npos);
+        CHECK(help.find(field.help.substr(0, 20)) != std::string::npos);
+    }
+    const CommandResult ended = run_strata(folder, {"render", "teapot", "--nodes", "9"});
+    CHECK(ended.status == 2);
+    CHECK(ended.err.find("--nodes: expected a whole number from 1 to 8, found '9'") != std::string::npos);
 }

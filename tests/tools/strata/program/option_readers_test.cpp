@@ -11,6 +11,7 @@
 #include "scenes/camera.h"
 #include "scenes/scene.h"
 #include "tests/tools/program.h"
+#include "tools/request/option_fields.h"
 
 namespace {
 
@@ -61,7 +62,10 @@ TEST_CASE("exactly the algorithms that are said to read an option draw another p
             const auto plain = codes(options, algorithm);
             change.make(options);
             const bool is_changed = codes(options, algorithm) != plain;
-            if (is_changed != tools::reads(algorithm, change.option, options.algorithm))
+            tools::PictureRequest request;
+            request.render = options;
+            const tools::OptionField& field = *tools::find_option(change.option.substr(2));
+            if (is_changed != tools::reads(algorithm, field, request))
                 wrong += algorithm.name + " " + std::string{change.option} + (is_changed ? " changes; " : " is idle; ");
         }
     CHECK(wrong == "");

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tools/strata/options/parse.h"
+#include "tools/request/parse.h"
 
 using namespace strata::tools;
 

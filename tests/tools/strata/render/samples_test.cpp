@@ -19,7 +19,7 @@ TEST_CASE("numbers of samples are rejected by name and --sample where it would h
          "dual: profile geforce3 has no 8 samples per pixel (ARB_multisample); use geforce8, "
          "geforce8_dx101, ideal or direct3d11"},
         {{"render", "teapot", "--samples", "2", "--sample", "1", "--profile", "llvmpipe"},
-         "--samples: profile llvmpipe has no 2 samples per pixel (ARB_multisample); use geforce3, "
+         "profile llvmpipe has no 2 samples per pixel (ARB_multisample); use geforce3, "
          "geforce8, geforce8_dx101, ideal or direct3d11"},
         {{"render", "teapot", "--samples", "4", "--sample", "4"},
          "--sample: expected a number from 0 to 3 with --samples 4, found 4"},

@@ -6,7 +6,7 @@
 
 #include "peeling/registry.h"
 #include "peeling/render.h"
-#include "tools/strata/options/choices.h"
+#include "tools/request/choices.h"
 
 namespace strata::tools {
 

@@ -1,13 +1,13 @@
 """Exact reference pictures of transparent scenes, for the tests of other renderers.
 
     scene = strata.Scene("teapot")
-    wanted = strata.render(scene, "dual", profile="geforce8", width=64, height=48)
+    wanted = strata.render(scene, "dual", profile="geforce8", size=(64, 48))
     print(strata.compare(wanted, my_pixels).text)
 
 Arrays have the stored codes: uint8 of 8-bit colours, float16 and float32 of float targets, uint16 and uint32 of D16 and D24. They are read-only;
-those of 32-bit channels share the library's memory. Options of the frame (width, height, depth, color_format, alpha,
-background, max_passes, depth_path, samples, shading, ...) are keywords with the names and values of the command `strata`; background is
-premultiplied, origin ("upper_left", "lower_left") is the corner at which the device's memory begins. Rows always begin at the top.
+those of 32-bit channels share the library's memory. Options of the frame are keywords with the names
+and values of the command's options (strata render --help all), with _ for -: size=(640, 480), depth_format="d24", samples=4, shading="pixel",
+background=(0.1, 0.1, 0.2), quantize_reference=False. Camera and lighting belong to the scene. Rows always begin at the top.
 """
 from __future__ import annotations
 

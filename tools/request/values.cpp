@@ -1,8 +1,8 @@
-#include "tools/strata/options/values.h"
+#include "tools/request/values.h"
 
 #include "peeling/render.h"
-#include "tools/strata/options/choices.h"
-#include "tools/strata/options/parse.h"
+#include "tools/request/choices.h"
+#include "tools/request/parse.h"
 
 namespace strata::tools {
 
@@ -15,6 +15,17 @@ std::optional<float> to_share(std::string_view text) {
     const auto value = to_number<float>(text);
     if (!value || *value < 0.0f || *value > 1.0f) return std::nullopt;
     return value;
+}
+
+std::optional<std::uint64_t> to_bytes(std::string_view text) {
+    constexpr std::string_view suffixes = "KMG";
+    const std::size_t suffix = text.empty() ? suffixes.npos : suffixes.find(text.back());
+    const unsigned shift = suffix == suffixes.npos ? 0 : 10 * (static_cast<unsigned>(suffix) + 1);
+    if (shift > 0) text.remove_suffix(1);
+    const auto count = to_int<std::uint64_t>(text);
+    // More than 2^64 - 1 bytes is an error: the shift would lose the upper bits.
+    if (!count || *count > ~std::uint64_t{0} >> shift) return std::nullopt;
+    return *count << shift;
 }
 
 // Parses X,Y,W,H.

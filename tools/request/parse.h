@@ -1,4 +1,4 @@
-// tools/strata/options/parse.h - converts text of the command line to numbers, independently of the locale. The whole
+// tools/request/parse.h - converts text of the command line to numbers, independently of the locale. The whole
 // text must be a number.
 #pragma once
 #include <charconv>

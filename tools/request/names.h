@@ -1,4 +1,4 @@
-// tools/strata/options/names.h - formats lists of names for messages.
+// tools/request/names.h - formats lists of names for messages.
 #pragma once
 #include <string>
 #include <string_view>

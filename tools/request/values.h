@@ -1,4 +1,4 @@
-// tools/strata/options/values.h - parses the values of options, both of the command line and of a plan of `strata
+// tools/request/values.h - parses the values of options, both of the command line and of a plan of `strata
 // invariance`. Each function returns an empty optional for an invalid text.
 #pragma once
 #include <optional>
@@ -25,6 +25,8 @@ struct Orbit {
 
 [[nodiscard]] std::optional<int> to_count(std::string_view text);    // at least 0
 [[nodiscard]] std::optional<float> to_share(std::string_view text);  // from 0 to 1
+// A number of bytes, with an optional suffix K, M or G.
+[[nodiscard]] std::optional<std::uint64_t> to_bytes(std::string_view text);
 // X,Y,W,H: a rectangle of pixels from the top left corner; width and height are at least 1.
 [[nodiscard]] std::optional<rasterizer::Rect> to_region(std::string_view text);
 // R,G,B or R,G,B,A, each from 0 to 1, or "none": 0,0,0,0.

@@ -1,4 +1,4 @@
-// tools/strata/options/choices.h - the accepted words of options that are enumerations, and their values.
+// tools/request/choices.h - the accepted words of options that are enumerations, and their values.
 #pragma once
 #include "pipeline/device/profile_fields.h"
 #include "pipeline/formats/resolve.h"
@@ -6,7 +6,7 @@
 #include "pipeline/frame/sample_loads.h"
 #include "pipeline/vertices/draw_list.h"
 #include "rasterizer/base/simd.h"
-#include "tools/strata/options/option.h"
+#include "tools/request/words.h"
 
 namespace strata::tools {
 

@@ -1,0 +1,78 @@
+#include "tools/request/complete.h"
+
+#include "pipeline/device/check.h"
+#include "pipeline/device/sample_points.h"
+#include "scenes/numbers/srgb_encode.h"
+
+namespace strata::tools {
+
+namespace {
+
+std::optional<OptionConflict> conflict_of_coverage(const PictureRequest& request) {
+    const rasterizer::SampleCoverage& coverage = request.render.raster.sample_coverage;
+    const bool is_of_pack = request.render.raster.sample.has_value();
+    if (coverage != rasterizer::SampleCoverage{} && request.sampling.samples == 1 && !is_of_pack)
+        return OptionConflict{
+            "", "--alpha-to-coverage, --sample-coverage and --sample-mask are valid only with --samples 2, 4 or 8"};
+    if (coverage.is_inverted && !coverage.value)
+        return OptionConflict{"", "--sample-coverage-invert is valid only with --sample-coverage"};
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<OptionConflict> option_conflict(const PictureRequest& request) {
+    const peeling::Multisampling& sampling = request.sampling;
+    if (request.sample && *request.sample >= sampling.samples)
+        return OptionConflict{"--sample", "expected a number from 0 to " + std::to_string(sampling.samples - 1) +
+                                              " with --samples " + std::to_string(sampling.samples) + ", found " +
+                                              std::to_string(*request.sample)};
+    const bool loads_others =
+        sampling.loads != pipeline::LoadedSample::own || sampling.composites != pipeline::LoadedSample::own;
+    if (loads_others && (sampling.samples == 1 || request.sample))
+        return OptionConflict{
+            "", "--load-sample and --composite-sample are valid only with --samples 2, 4 or 8 and without --sample"};
+    if (const auto found = conflict_of_coverage(request)) return found;
+    if (request.shades_pixels && sampling.samples == 1)
+        return OptionConflict{"", "--shading pixel is valid only with --samples 2, 4 or 8"};
+    if (request.interpolate && !request.shades_pixels)
+        return OptionConflict{"", "--interpolate is valid only with --shading pixel"};
+    if (sampling.resolve != pipeline::Resolve::box && request.sample)
+        return OptionConflict{"", "--resolve is valid only without --sample: one sample is not resolved"};
+    if (request.orbit && !request.camera.empty()) return OptionConflict{"", "--orbit and --camera exclude each other"};
+    return std::nullopt;
+}
+
+void take_interpolation(PictureRequest& request) {
+    using enum rasterizer::Interpolation;
+    rasterizer::Interpolation& where = request.render.raster.interpolation;
+    if (request.shades_pixels)
+        where = request.interpolate.value_or(where == sample ? centre : where);
+    else if (request.sampling.samples > 1)
+        where = sample;
+    request.interpolate.reset();
+    if (request.shades_pixels && where == centroid) request.interpolate = centroid;
+}
+
+scenes::ClipConvention take_clip_convention(PictureRequest& request, const pipeline::DeviceProfile& profile) {
+    rasterizer::RasterState& raster = request.render.raster;
+    raster.clip_depth = request.clip_depth.value_or(profile.clip_depth);
+    raster.depth_order = request.depth_order.value_or(profile.depth_order);
+    return {raster.clip_depth, raster.depth_order};
+}
+
+void take_background(PictureRequest& request) {
+    if (!request.background) return;
+    const pipeline::Rgba c = scenes::from_encoded(*request.background, request.scene_options.color_space);
+    request.render.background = {c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]};
+}
+
+void take_sample(PictureRequest& request, const pipeline::DeviceProfile& profile) {
+    if (!request.sample || request.sampling.samples == 1) return;
+    if (const auto lacking = pipeline::check_multisampling(profile, request.sampling.samples))
+        throw pipeline::Refused{profile, *lacking};
+    pipeline::set_sample(request.render.raster, profile.sample_positions, request.sampling.samples,
+                         static_cast<std::size_t>(*request.sample));
+}
+
+}  // namespace strata::tools

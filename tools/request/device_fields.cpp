@@ -1,0 +1,225 @@
+// tools/request/device_fields.cpp - the options of the device's state, of what ends a peel, and of the order of
+// triangles.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tools/request/choices.h"
+#include "tools/request/groups.h"
+#include "tools/request/make_field.h"
+
+namespace strata::tools {
+
+namespace {
+
+using peeling::Algorithm;
+using peeling::RenderOptions;
+using rasterizer::RasterState;
+
+// A termination rule of peeling/reference/keys-and-counts.md 3.1, with its ratio or number of passes.
+std::optional<pipeline::Termination> to_termination(std::string_view text) {
+    using enum pipeline::TerminationRule;
+    if (text == "exact") return pipeline::Termination{.rule = exact};
+    if (text == "paper") return pipeline::Termination{.rule = paper};
+    if (text == "any") return pipeline::Termination{.rule = any};
+    if (text.starts_with("ratio:")) {
+        const auto value = to_number<double>(text.substr(6));
+        if (value && *value >= 0 && *value <= 1) return pipeline::Termination{.rule = ratio, .ratio = *value};
+    }
+    if (text.starts_with("fixed:")) {
+        const auto value = to_int(text.substr(6));
+        if (value && *value >= 1) return pipeline::Termination{.rule = fixed, .passes = *value};
+    }
+    return std::nullopt;
+}
+
+std::string termination_text(const pipeline::Termination& termination) {
+    const std::string rule{enum_name(termination.rule)};
+    if (termination.rule == pipeline::TerminationRule::ratio) return fmt::format("{}:{}", rule, termination.ratio);
+    if (termination.rule == pipeline::TerminationRule::fixed) return fmt::format("{}:{}", rule, termination.passes);
+    return rule;
+}
+
+// A sort order of peeling/reference/keys-and-counts.md 5. A seed is any 64-bit number.
+std::optional<peeling::Sort> to_sort(std::string_view text) {
+    using enum peeling::SortRule;
+    if (text == "none") return peeling::Sort{.rule = none};
+    if (text == "exact") return peeling::Sort{.rule = exact};
+    if (text == "reverse") return peeling::Sort{.rule = reverse};
+    if (text.starts_with("bucket:")) {
+        const auto buckets = to_int(text.substr(7));
+        if (buckets && *buckets >= 1) return peeling::Sort{.rule = bucket, .buckets = *buckets};
+    }
+    if (text.starts_with("shuffle:")) {
+        const auto parts = split(text.substr(8), ',');
+        if (parts.size() != 2) return std::nullopt;
+        const auto fraction = to_number<double>(parts[0]);
+        const auto seed = to_int<std::uint64_t>(parts[1]);
+        if (fraction && seed && *fraction >= 0 && *fraction <= 1)
+            return peeling::Sort{.rule = shuffle, .fraction = *fraction, .seed = *seed};
+    }
+    return std::nullopt;
+}
+
+std::string sort_text(const peeling::Sort& sort) {
+    const std::string rule{enum_name(sort.rule)};
+    if (sort.rule == peeling::SortRule::bucket) return fmt::format("{}:{}", rule, sort.buckets);
+    if (sort.rule == peeling::SortRule::shuffle) return fmt::format("{}:{},{}", rule, sort.fraction, sort.seed);
+    return rule;
+}
+
+// FACTOR,UNITS. The offset is enabled even if both are zero. 2^24 units are the whole range of a D24 buffer.
+std::optional<rasterizer::PolygonOffset> to_polygon_offset(std::string_view text) {
+    const auto values = to_numbers<float>(text, 2);
+    if (!values || std::fabs((*values)[0]) > 0x1p24f || std::fabs((*values)[1]) > 0x1p24f) return std::nullopt;
+    return rasterizer::PolygonOffset{true, (*values)[0], (*values)[1]};
+}
+
+std::string polygon_offset_text(const rasterizer::PolygonOffset& offset) {
+    return offset.enabled ? fmt::format("{},{}", offset.factor, offset.units) : "";
+}
+
+std::string epsilon_text(const pipeline::CompareEpsilon& epsilon) {
+    return epsilon.ulps != 0 ? fmt::format("{}ulp", epsilon.ulps) : fmt::format("{}", epsilon.absolute);
+}
+
+std::string vertex_paths_text(const peeling::VertexPaths& paths) {
+    if (!paths.first) return "";
+    const std::string first = name_of(vertex_paths(), *paths.first);
+    return paths.second ? first + "," + name_of(vertex_paths(), *paths.second) : first;
+}
+
+std::string region_text(const rasterizer::Rect& rect) {
+    return fmt::format("{},{},{},{}", rect.x0, rect.y0, rect.width(), rect.height());
+}
+
+// NEAR,FAR of glDepthRange, which OpenGL clamps to [0, 1].
+OptionField depth_range() {
+    OptionField made{.name = "depth-range",
+                     .group = OptionGroup::depth,
+                     .type = "NEAR,FAR",
+                     .help = "glDepthRange: the depths of the near and of the far plane (default 0,1)",
+                     .expected = "two numbers from 0 to 1 such as 0,0.5"};
+    made.set = [](PictureRequest& request, std::string_view text) {
+        const auto values = to_numbers<float>(text, 2);
+        const auto is_share = [](float value) { return value >= 0 && value <= 1; };
+        if (!values || !std::ranges::all_of(*values, is_share)) return false;
+        request.render.raster.depth_near = (*values)[0];
+        request.render.raster.depth_far = (*values)[1];
+        return true;
+    };
+    made.text = [](const PictureRequest& request) {
+        const RasterState& raster = request.render.raster;
+        return fmt::format("{},{}", raster.depth_near, raster.depth_far);
+    };
+    return made;
+}
+
+// What passes compare and how positions are computed.
+std::vector<OptionField> depth_fields() {
+    using enum OptionGroup;
+    const std::string paths = one_of(names_of(vertex_paths()));
+    return {
+        usual(choice<&PictureRequest::render, &RenderOptions::depth>(
+            depth, "depth-format", depth_formats, "depth buffer (default d32f, or d24 where that is missing)")),
+        choice<&PictureRequest::render, &RenderOptions::depth_path>(
+            depth, "depth-path", depth_paths(), "how depth is computed (default: the profile's own)"),
+        choice<&PictureRequest::render, &RenderOptions::reference_path>(
+            depth, "reference-path", depth_paths(),
+            "the depth that a peel compares with what it stored (default: the one that it stores)"),
+        field<&PictureRequest::render, &RenderOptions::compare_epsilon>(
+            depth,
+            {"compare-epsilon", "E|Nulp", "added to a stored depth before a program compares it (default 0)",
+             "a part of the depth range from 0 to 1 such as 1e-7, or units in the last place such as 2ulp"},
+            to_epsilon, epsilon_text),
+        flag<&PictureRequest::render, &RenderOptions::quantize_reference>(
+            depth, "quantize-reference", "compare a depth that is not rounded like the stored one"),
+        field<&PictureRequest::render, &RenderOptions::vertex_paths>(
+            depth,
+            {"vertex-path", "A[,B]",
+             "how positions are computed, in the first pass and in further ones (default separate): " + paths,
+             "one or two of " + paths},
+            [](std::string_view text) { return to_vertex_paths(text, ','); }, vertex_paths_text),
+        field<&PictureRequest::render, &RenderOptions::raster, &RasterState::polygon_offset>(
+            depth,
+            {"polygon-offset", "FACTOR,UNITS", "glPolygonOffset of everything that is drawn (default: off)",
+             "two numbers such as 1,1, each from -16777216 to 16777216"},
+            to_polygon_offset, polygon_offset_text),
+        choice<&PictureRequest::depth_order>(
+            depth, "depth-order", depth_orders,
+            "the depth test that keeps the nearer fragment; greater: reversed depth, near at 1 "
+            "(default: the profile's own)"),
+        choice<&PictureRequest::clip_depth>(
+            depth, "clip-depth", clip_depths,
+            "where z of clip space begins; zero-to-one: glClipControl, Direct3D (default: the "
+            "profile's own)"),
+        depth_range(),
+        field<&PictureRequest::render, &RenderOptions::raster, &RasterState::scissor>(
+            depth,
+            {"scissor", "X,Y,W,H",
+             "glScissor: draw these pixels of the picture alone, counted from its top left corner",
+             "four whole numbers such as 240,180,160,120, the last two above 0"},
+            to_region, region_text),
+    };
+}
+
+// Targets, and what ends a peel.
+std::vector<OptionField> target_fields() {
+    using enum OptionGroup;
+    return {
+        choice<&PictureRequest::render, &RenderOptions::color_format>(
+            targets, "color-format", color_formats, "colour target (default rgba8; rgba32f on ideal)"),
+        choice<&PictureRequest::render, &RenderOptions::result_format>(
+            targets, "result-format", color_formats,
+            "the picture, where it is not kept as colours are that are composited (default: as --color-format)"),
+        choice<&PictureRequest::render, &RenderOptions::back_format>(
+            targets, "back-format", color_formats,
+            "the back of dual and dual_independent (default: as --color-format, which is then that of the front)"),
+        read_by({"weighted_average"}, choice<&PictureRequest::render, &RenderOptions::average_count>(
+                                          targets, "average-count", count_formats,
+                                          "fragment count of weighted_average (default r16f, as in the paper)")),
+        field<&PictureRequest::render, &RenderOptions::termination>(
+            targets,
+            {"termination", "exact|paper|any|ratio:R|fixed:N", "what ends a peel (default exact)",
+             "exact, paper, any, ratio:R with R from 0 to 1, or fixed:N with N from 1"},
+            to_termination, termination_text),
+        number<&PictureRequest::render, &RenderOptions::max_passes>(
+            targets,
+            {"max-passes", "N", "geometry passes at most (default 0: as many as it takes)", "a whole number from 0"},
+            to_count),
+    };
+}
+
+}  // namespace
+
+std::vector<OptionField> device_fields() {
+    std::vector<OptionField> all = depth_fields();
+    std::ranges::move(target_fields(), std::back_inserter(all));
+    return all;
+}
+
+std::vector<OptionField> order_fields() {
+    using enum OptionGroup;
+    return {
+        read_if([](const Algorithm& algorithm) { return algorithm.has_published_form; },
+                choice<&PictureRequest::render, &RenderOptions::formulation>(
+                    order, "formulation", formulations,
+                    "the listings of Carr et al. repaired, or as printed, with what they lose (default resolved)")),
+        read_if([](const Algorithm& algorithm) { return algorithm.order == peeling::ListOrder::sets; },
+                field<&PictureRequest::render, &RenderOptions::sorted>(
+                    order,
+                    {"sorted", "NAME[,NAME...]",
+                     "meshes or materials that arrive front to back, for hybrid (default: those that the scene names)",
+                     "names of meshes or materials"},
+                    [](std::string_view text) { return std::optional{split(text, ',')}; },
+                    [](const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ",")); })),
+        field<&PictureRequest::render, &RenderOptions::sort>(
+            order,
+            {"sort", "bucket:N|exact|none|reverse|shuffle:F,SEED",
+             "order of triangles, by centroid (default none: as listed)",
+             "bucket:N with N from 1, exact, none, reverse, or shuffle:FRACTION,SEED with a fraction from 0 to 1"},
+            to_sort, sort_text),
+    };
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,117 @@
+// tools/request/view_fields.cpp - the options of the scene that is read and of the view.
+#include <algorithm>
+
+#include "tools/request/choices.h"
+#include "tools/request/groups.h"
+#include "tools/request/make_field.h"
+
+namespace strata::tools {
+
+namespace {
+
+using scenes::SceneOptions;
+
+// One option fills width and height.
+OptionField size_field() {
+    OptionField made{.name = "size",
+                     .group = OptionGroup::view,
+                     .type = "WIDTHxHEIGHT",
+                     .help = "pixels (default 1024x1024)",
+                     .expected = "WIDTHxHEIGHT such as 640x480, each from 1 to 16384"};
+    made.set = [](PictureRequest& request, std::string_view text) {
+        const auto size = to_size(text);
+        if (!size) return false;
+        request.render.width = size->width;
+        request.render.height = size->height;
+        return request.states_size = true;
+    };
+    made.text = [](const PictureRequest& request) {
+        return fmt::format("{}x{}", request.render.width, request.render.height);
+    };
+    return made;
+}
+
+// "0.5" for everything, or "glass=0.3,water=0.5".
+OptionField alpha_field() {
+    OptionField made{.name = "alpha",
+                     .group = OptionGroup::view,
+                     .type = "A|MATERIAL=A[,...]",
+                     .help = "draw everything as transparent, its own alpha times A, or these materials alone",
+                     .expected = "a number from 0 to 1, or MATERIAL=A with commas between"};
+    made.set = [](PictureRequest& request, std::string_view text) {
+        std::optional<float> everything;
+        std::vector<scenes::MaterialAlpha> materials;
+        if (text.find('=') == text.npos) {
+            everything = to_share(text);
+            if (!everything) return false;
+        } else {
+            for (const std::string& part : split(text, ',')) {
+                const std::size_t is = part.rfind('=');
+                if (is == std::string::npos || is == 0) return false;
+                const auto alpha = to_share(std::string_view(part).substr(is + 1));
+                if (!alpha) return false;
+                materials.push_back({part.substr(0, is), *alpha});
+            }
+        }
+        request.render.alpha = everything;
+        request.scene_options.alpha = std::move(materials);
+        return true;
+    };
+    made.text = [](const PictureRequest& request) {
+        if (request.render.alpha) return fmt::format("{}", *request.render.alpha);
+        std::string text;
+        for (const scenes::MaterialAlpha& one : request.scene_options.alpha)
+            text += fmt::format("{}{}={}", text.empty() ? "" : ",", one.material, one.alpha);
+        return text;
+    };
+    return made;
+}
+
+// A name that a file or a camera may have.
+std::optional<std::string> to_name(std::string_view text) {
+    return text.empty() ? std::nullopt : std::optional<std::string>{text};
+}
+
+std::string background_text(const pipeline::Rgba& b) {
+    if (b == pipeline::Rgba{}) return "none";
+    const std::string rgb = fmt::format("{},{},{}", b[0], b[1], b[2]);
+    return b[3] == 1.0f ? rgb : fmt::format("{},{}", rgb, b[3]);
+}
+
+}  // namespace
+
+std::vector<OptionField> view_fields() {
+    using enum OptionGroup;
+    std::vector<OptionField> all{
+        choice<&PictureRequest::origin>(
+            origin, "origin", origins,
+            "the corner at which the device's memory begins; lower-left: OpenGL without glClipControl "
+            "(default: the profile's own)"),
+        number<&PictureRequest::scene_options, &SceneOptions::scene>(
+            reading, {"scene", "N", "which scene of a glTF file (default: the file's own)", "a whole number from 0"},
+            to_count),
+        choice<&PictureRequest::scene_options, &SceneOptions::color_space>(
+            reading, "color-space", color_spaces,
+            "blend sRGB values as they are, or decoded to linear light (default encoded)"),
+        flag<&PictureRequest::scene_options, &SceneOptions::light>(reading, "light", "draw every material unlit"),
+        size_field(),
+        field<&PictureRequest::orbit>(
+            view,
+            {"orbit", "AZ,EL", "look at the scene's bounds from these degrees (default 30,20)",
+             "azimuth and elevation in degrees such as 30,20"},
+            to_orbit, [](const Orbit& orbit) { return fmt::format("{},{}", orbit.azimuth, orbit.elevation); }),
+        field<&PictureRequest::camera>(
+            view, {"camera", "NAME|FILE", "a camera of the scene, or a JSON file with one", "a camera's name or file"},
+            to_name, [](const std::string& name) { return name; }),
+        alpha_field(),
+        field<&PictureRequest::background>(
+            view,
+            {"background", "R,G,B[,A]|none", "sRGB values from 0 to 1, and alpha; none is 0,0,0,0 (default 0,0,0,1)",
+             background_expected},
+            to_background, background_text),
+    };
+    for (OptionField& field : all) field.is_usual = true;
+    return all;
+}
+
+}  // namespace strata::tools
