@@ -1,11 +1,11 @@
 // peeling/audit/peel_errors.h - finds the layers that a finished peel composited more than once, and those it never
 // composited.
 //
-// Rule     A pixel's true layers are the distinct codes, before the opaque surface, that the writing path stores
-//          without bias, which the exact A-buffer keeps under the tie policy `unique`. The composited layers are read
-//          from the run's trace: each depth in it stands for the first fragment of that depth, and so for a layer. A
-//          layer composited twice or more often is one duplicate, a layer never composited is one loss, so the counts
-//          stay finite for a peel that never ends.
+// Rule     A pixel's true layers are the distinct depth codes (stored integers) of its fragments before the opaque
+//          surface, as the depth path that writes stores them, without polygon offset; fragments of one code are one
+//          layer. The composited layers are read from the run's trace (region_trace.h): each depth in it stands for the
+//          first fragment of that depth, and so for a layer. A layer composited twice or more often is one duplicate, a
+//          layer never composited is one loss, so the counts stay finite for a peel that never ends.
 // Source   peeling/reference/audit.md 9; keys-and-counts.md 2.2 (tie policies); algorithms.md 3.
 // Tests    tests/peeling/audit/peel_errors_test.cpp
 #pragma once
@@ -19,7 +19,8 @@ namespace strata::peeling {
 
 struct RegionTrace;
 
-// A fragment of the peel: `layer` is its code in the truth, `key` its key in the trace.
+// A fragment of the peel: `layer` is the depth code that makes it part of a true layer, `key` the depth by which the
+// algorithm orders it and which the trace records.
 struct LayerFragment {
     std::uint32_t pixel = 0, primitive = 0;
     std::uint32_t layer = 0, key = 0;

@@ -23,6 +23,8 @@ std::optional<OptionConflict> conflict_of_coverage(const PictureRequest& request
 
 std::optional<OptionConflict> option_conflict(const PictureRequest& request) {
     const peeling::Multisampling& sampling = request.sampling;
+    if (request.sample && *request.sample > 0 && sampling.samples == 1)
+        return OptionConflict{"", "--sample is valid only with --samples 2, 4 or 8"};
     if (request.sample && *request.sample >= sampling.samples)
         return OptionConflict{"--sample", "expected a number from 0 to " + std::to_string(sampling.samples - 1) +
                                               " with --samples " + std::to_string(sampling.samples) + ", found " +

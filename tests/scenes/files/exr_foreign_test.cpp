@@ -131,7 +131,8 @@ TEST_CASE("a channel with fewer samples than pixels is rejected with a message t
         file.writePixels(8);
     }
     const std::string path = folder / "a.exr";
-    const std::string said = path + ": channel BY: expected a sample for every pixel, found fewer";
+    const std::string said =
+        path + ": channel BY: expected a sample for every pixel (sampling 1 x 1), found sampling 2 x 2";
     CHECK_THROWS_WITH(only_part(path), said);
     CHECK_THROWS_AS(only_part(path), strata::InputError);
 }

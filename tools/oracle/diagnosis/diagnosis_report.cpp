@@ -71,8 +71,9 @@ std::string line_of(const Finding& f, const Diagnosis& d) {
     std::string text = fmt::format("  {} % of the pixels are those of: {}\n", percent(f.agreeing, d.pixels),
                                    description_of(f.mistakes));
     if (!f.mistakes.empty() && d.differing > 0)
-        text += fmt::format("      {} of the {} that differ; {} that do not differ speak against it\n", f.explained,
-                            d.differing, f.contradicted);
+        text += fmt::format(
+            "      explains {} of the {} pixels that differ; contradicted by {} pixels that do not differ\n",
+            f.explained, d.differing, f.contradicted);
     return text;
 }
 

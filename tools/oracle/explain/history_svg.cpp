@@ -41,7 +41,7 @@ std::string takings(const History& history, std::uint32_t primitive) {
         if (!has) continue;
         text += fmt::format("{}pass {} {}{}", text.empty() ? "" : ", ", line.pass,
                             line.side == pipeline::Side::back ? "far" : "near",
-                            line.fragments.size() > 1 ? " (merged)" : "");
+                            line.fragments.size() > 1 ? " (with others of its depth)" : "");
     }
     return text.empty() ? "-" : text;
 }

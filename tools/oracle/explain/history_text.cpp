@@ -51,7 +51,8 @@ std::string of_line(const Line& line) {
         case LineKind::copy:
             return fmt::format("copy {} to {}: {}", line.from, line.held[0].target, hex(line.held[0].after));
         case LineKind::query:
-            return fmt::format("query: {} in the frame, {}", line.count, line.goes_on ? "go on" : "stop");
+            return fmt::format("occlusion query: {} samples passed in the frame; {}", line.count,
+                               line.goes_on ? "another pass follows" : "the peel ends");
         case LineKind::taken:
             return fmt::format("takes {} at the {} end{}", numbers(line.fragments),
                                line.side == pipeline::Side::back ? "far" : "near",

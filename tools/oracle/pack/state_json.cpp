@@ -1,5 +1,7 @@
-// tools/oracle/pack/state_json.cpp - lists every option of a pack's state with its key, for reading and writing
-// (state_json.h).
+// tools/oracle/pack/state_json.cpp - the fields of a pack's `state`, one list for reading and writing (state_json.h,
+// PACK.md). A field of `optional` is null unless it is given, one of `if_any` is left out; a new field takes `if_any`,
+// so that packs that were written before can be read. A frame of one sample is drawn at one point of every pixel
+// (`--sample`); a frame of all samples is resolved.
 #include "tools/oracle/pack/state_json.h"
 
 #include <algorithm>

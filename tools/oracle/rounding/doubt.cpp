@@ -166,7 +166,7 @@ std::string direction_of(const std::vector<Residual>& channel, std::string_view 
     for (const Property property : {Property::transmittance, Property::layers, Property::alpha, Property::color}) {
         const Fit fit = fit_of(channel, property);
         if (exceeds(fit.slope, most_slope, fit.error))
-            return fmt::format("the differences of {} follow {}", name, words_of(property));
+            return fmt::format("the differences of {} change with {}", name, words_of(property));
     }
     return "";
 }

@@ -197,9 +197,13 @@ std::string description(const Rule& rule, const SceneFacts& facts, const pipelin
             return fmt::format("of layers within {:.0e} of the depth range the farther one is missing: an epsilon",
                                rule.value);
         case RuleKind::within_merged:
-            return fmt::format("layers within {:.0e} of the depth range are merged by MAX: an epsilon", rule.value);
-        case RuleKind::close_merged: return fmt::format("layers within {} of depth are merged by MAX", codes(n));
-        case RuleKind::close_swapped: return fmt::format("layers within {} of depth are exchanged", codes(n));
+            return fmt::format(
+                "layers whose depths differ by at most {:.0e} of the depth range are merged by MAX: an epsilon",
+                rule.value);
+        case RuleKind::close_merged:
+            return fmt::format("layers whose depths differ by at most {} are merged by MAX", codes(n));
+        case RuleKind::close_swapped:
+            return fmt::format("layers whose depths differ by at most {} are composited in exchanged order", codes(n));
         case RuleKind::edges_twice: return "a centre on an edge is drawn by both triangles beside it";
         case RuleKind::edges_never: return "a centre on an edge is drawn by neither triangle beside it";
         case RuleKind::hidden_shown: return "layers behind opaque surfaces are composited: they are not hidden";
@@ -250,8 +254,8 @@ std::string description(const Rule& rule, const SceneFacts& facts, const pipelin
         case RuleKind::near_reversed: return "the near half of the layers is composited in the reverse order";
         case RuleKind::far_reversed: return "the far half of the layers is composited in the reverse order";
         case RuleKind::submitted_moved:
-            return fmt::format("the {} layer that was submitted is composited {} all others",
-                               n % 2 == 0 ? "first" : "last", n < 2 ? "before" : "behind");
+            return fmt::format("the layer that is submitted {} is composited {} all others",
+                               n % 2 == 0 ? "first" : "last", n < 2 ? "in front of" : "behind");
         case RuleKind::by_centroid: return fmt::format("triangles are sorted by {}, not fragments by depth", point(n));
         case RuleKind::alphas_as_submitted:
             return fmt::format("layers are sorted, but their alphas stay in the {}order of submission",

@@ -132,8 +132,9 @@ class PictureJudge {
             ties != peeling::TiePolicy::first_then_last)
             return;
         found.is_right = false;
-        found.finding = fmt::format("fragments of one depth are lost or merged at {} of {} pixels, and {} keeps all",
-                                    found.right.lost_at_ties, found.right.pixels, question_.algorithm->name);
+        found.finding =
+            fmt::format("fragments of one depth are lost or merged at {} of {} pixels, and {} keeps all of them",
+                        found.right.lost_at_ties, found.right.pixels, question_.algorithm->name);
     }
 
     // Another rasterizer's snapping moves edges in all directions.

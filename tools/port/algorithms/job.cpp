@@ -1,3 +1,5 @@
+// tools/port/algorithms/job.cpp - the list of algorithms that the OpenGL port (tools/port) draws, by the names of the
+// command line, and what a job, one frame of one algorithm, records of its passes (job.h).
 #include "tools/port/algorithms/job.h"
 
 #include <algorithm>
@@ -54,6 +56,7 @@ bool shows_all_samples() { return samples_per_pixel() > 1 && samples_shown() < 0
 
 }  // namespace
 
+// Layers are kept of one sample: those of several would have to be resolved.
 bool keeps_layers(const Record* record) { return record != nullptr && !shows_all_samples(); }
 
 void show_pass(Record* record, FrameSize size, const std::string& kind, std::initializer_list<NamedTexture> targets,

@@ -62,7 +62,9 @@ void check_targets(const oracle::Tolerances& tolerances, const std::vector<std::
         if (std::ranges::find(targets, name) != targets.end()) continue;
         std::vector<std::string> known{"color",        "depth",        "coverage", "background", "layers",
                                        "depth-pixels", "color-pixels", "pixels",   "not-finite"};
-        known.insert(known.end(), targets.begin(), targets.end());
+        std::ranges::copy_if(targets, std::back_inserter(known), [&](const std::string& target) {
+            return std::ranges::find(known, target) == known.end();
+        });
         throw CLI::ValidationError("--tolerance",
                                    "expected " + one_of(known) + ", found " + found_but_near(name, known));
     }

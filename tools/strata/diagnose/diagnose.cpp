@@ -321,8 +321,7 @@ Command add_diagnose(CLI::App& root) {
     add_mistakes_options(*app, options->mistakes);
     app->add_flag("--json", options->json, "one JSON document instead of text");
     app->footer(
-        "The scene is drawn at the candidate's size, whatever --size says; strata diagnose --list shows what is "
-        "tried.\n"
+        "The scene is drawn at the candidate's size; strata diagnose --list shows what is tried.\n"
         "A folder of packs, such as a suite, with a folder of pictures or of candidates' folders of the same names is "
         "diagnosed as a whole: "
         "one "

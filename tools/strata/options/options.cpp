@@ -137,8 +137,9 @@ peeling::Multisampling sampling_of(const RunOptions& options) noexcept {
 void complete(RunOptions& options) {
     const bool is_piped = scenes::is_standard_output(options.output);
     if (options.format && !is_piped)
-        throw CLI::ValidationError("--format is valid only with -o -; the name '" + options.output +
-                                   "' determines the format");
+        throw CLI::ValidationError(
+            "--format is valid only with -o -" +
+            (options.output.empty() ? "" : "; the name '" + options.output + "' determines the format"));
     if (is_piped && scenes::is_standard_output(options.stats))
         throw CLI::ValidationError("with -o -, --stats must name a file");
     if (options.algorithms.empty()) options.algorithms = to_algorithms(options.default_algorithm);

@@ -195,9 +195,9 @@ class Builder {
         data_.document["fragments"] = fragments_of(columns_, kept_, data_.blobs);
         if (kept_.fragments.size() < columns_.fragments.size())
             leave_out(fmt::format(
-                "of {} fragments those behind the nearest {} of their pixel, {} in all: layers and "
-                "pixels show the nearest",
-                columns_.fragments.size(), kept_.nearest, columns_.fragments.size() - kept_.fragments.size()));
+                "{} of {} fragments, which lie behind the nearest {} of their pixel: layers and pixels show the "
+                "nearest",
+                columns_.fragments.size() - kept_.fragments.size(), columns_.fragments.size(), kept_.nearest));
     }
 
     // Copies the region's fragments, with their indices in the frame.

@@ -289,7 +289,7 @@ TEST_CASE("a report of at most 8 MiB loads nothing and is reproducible and lists
         CHECK(report.page.find(outside) == std::string::npos);
     std::string messages;
     for (const auto& message : report.document["left_out"]) messages += message.get<std::string>();
-    CHECK((messages.find("of 647242 fragments those behind the nearest") != std::string::npos) == leaves_out);
+    CHECK((messages.find("of 647242 fragments, which lie behind the nearest") != std::string::npos) == leaves_out);
     if (!leaves_out) CHECK(report_of(folder, options).page == report.page);
 }
 

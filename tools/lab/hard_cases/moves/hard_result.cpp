@@ -1,5 +1,7 @@
-// tools/lab/hard_cases/moves/hard_result.cpp - differences of two results: fragments gained, lost and reordered, layer
-// by layer at each pixel (hard_result.h).
+// tools/lab/hard_cases/moves/hard_result.cpp - reads which fragments a renderer composited in which layer of each
+// pixel, from the trace of its run, and counts the differences of two such results (hard_result.h). A key is the depth
+// by which an algorithm orders fragments; -1 is the layer of a fragment that it never composited. Colours are not
+// compared where fragments are gained or lost, since they then differ by whole layers.
 #include "tools/lab/hard_cases/moves/hard_result.h"
 
 #include <algorithm>

@@ -1,10 +1,11 @@
 // tools/lab/hardware_check/drawing/compare.h - compares a drawn picture with a capture of the NV2A chip.
 //
-// Rule     Both are read as one word per pixel: r g b a from the lowest byte; 1 if a pixel is not the background; a
-//          16-bit depth, which a capture stores as R5G6B5 extended to 8 bits; a 24-bit depth above its stencil, which
-//          it stores in A R G and B. Label pixels of a colour capture, which are (255, 255, 255, 0) or `overdrawn`, and
-//          hidden rectangles are not compared. The difference of colours is their largest channel difference in 1/255,
-//          that of other words in units.
+// Rule     Each picture is read as one 32-bit word per pixel, of one of four kinds: a colour (r g b a from the lowest
+//          byte); coverage (1 if the pixel is not the background); a 16-bit depth, which a capture stores as R5G6B5
+//          extended to 8 bits; a 24-bit depth above an 8-bit stencil, which a capture stores in its bytes A R G and B.
+//          Not compared: the captures' text labels, whose pixels are (255, 255, 255, 0) or SuitePicture::overdrawn, and
+//          the rectangles that a suite of captures hides. Colours differ by their largest channel difference in 1/255,
+//          other words by their units. The kept digests of hardware_digests.txt depend on label_box and digest_outside.
 // Source   the captures' own descriptions, repeated in pipeline/reference/chip-fragment.md and
 //          rasterizer/reference/chip-geometry.md.
 // Tests    tests/tools/lab/hardware_check/suites_test.cpp

@@ -148,7 +148,8 @@ void write_pack(const ProbePack& pack, const std::vector<Item>& items, const std
 ProbePack read_pack(const std::string& path, const std::vector<Item>& items) {
     const Files files = read_files(path);
     const std::string file = path + "/candidate.json";
-    if (!files.contains("candidate.json")) throw InputError(path, "holds no candidate.json, the answers to a kit");
+    if (!files.contains("candidate.json"))
+        throw InputError(path, "holds no candidate.json, in which a device's answers to the probe's scenes stand");
     const json document = scenes::parse_strict_json(files.at("candidate.json"), file, "a candidate in JSON");
     if (!document.is_object() || !document.contains("probe") || !document["probe"].is_object())
         throw InputError(file, "/probe", "an object that says which kit was answered", "none");

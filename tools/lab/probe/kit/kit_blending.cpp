@@ -1,5 +1,8 @@
-// tools/lab/probe/kit/kit_blending.cpp - scenes for blending and the alpha test, with colours whose stored values are
-// known.
+// tools/lab/probe/kit/kit_blending.cpp - the probe's test scenes for blending and the alpha test. A device draws the
+// scenes of a kit, and its pictures decide the profile fields that an item names in `decides`.
+//
+// Rule     Items keep their names, random seeds and order: answers that devices have given refer to them, and the kit's
+//          digest is kept by a test.
 #include "tools/lab/probe/kit/kit.h"
 #include "tools/lab/probe/kit/shapes.h"
 

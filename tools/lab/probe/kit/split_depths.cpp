@@ -1,3 +1,7 @@
+// tools/lab/probe/kit/split_depths.cpp - finds triangles whose 24-bit depths differ between two hypotheses about a
+// device's reciprocal (its bits, and the units that it lacks), by drawing random ones, so that a picture of a device
+// decides between them (split_depths.h). The order of the random numbers fixes the probe's scenes: a change of it
+// changes the digest of the kit.
 #include "tools/lab/probe/kit/split_depths.h"
 
 #include <cmath>
