@@ -4,7 +4,7 @@ import pytest
 
 import strata
 
-SIZE = {"width": 48, "height": 36}
+SIZE = {"size": (48, 36)}
 
 
 def test_a_port_of_another_format_is_right_for_judge_and_diagnose():
@@ -30,7 +30,7 @@ def test_samples_are_those_of_the_command():
     scene = strata.Scene().add(half, color=(1, 0, 0, 1))
     picture = strata.render(scene, "dual", profile="ideal", size=(3, 1), samples=4, color_format="rgba32f").color
     assert picture[0, :, 0].tolist() == [1.0, 0.5, 0.0]  # two of the middle pixel's four samples
-    with pytest.raises(strata.InputError, match="options: samples: expected 1, 2, 4 or 8, found 3"):
+    with pytest.raises(strata.InputError, match="options: samples: expected 1, 2, 4 or 8, found '3'"):
         strata.render(scene, samples=3)
     with pytest.raises(strata.InputError, match="options: shading: expected sample or pixel, found 'centre'"):
         strata.render(scene, shading="centre")

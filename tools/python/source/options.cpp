@@ -45,11 +45,11 @@ const OptionField& field_of(const std::string& keyword) {
     const OptionField* field = tools::find_option(keyword);
     if (field != nullptr && is_of_frame(*field)) return *field;
     std::vector<std::string> names;
-    for (const OptionField& known : tools::option_fields())
-        if (is_of_frame(known)) names.push_back(known.name);
+    for (const OptionField& other : tools::option_fields())
+        if (is_of_frame(other)) names.push_back(other.name);
     for (std::string& name : names) std::ranges::replace(name, '-', '_');
-    throw py::type_error("expected an option of the frame, found " +
-                         scenes::quoted_with_suggestion(keyword, {names.begin(), names.end()}));
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    throw py::type_error("expected an option of the frame, found " + scenes::quoted_with_suggestion(keyword, known));
 }
 
 PictureRequest request_of(const py::kwargs& keywords) {
