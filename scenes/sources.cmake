@@ -83,7 +83,6 @@ set(strata_scenes_with_files
   files/deep_exr.cpp
   files/exr.cpp
   files/load_module.cpp
-  memory_limit.cpp
   files/picture_attributes.cpp
   files/png.cpp
   images/png_encode.cpp
