@@ -53,7 +53,7 @@ except strata.InputError as error:
 # A keyword means what the option of the same name means.
 for options, words in [
     (dict(), []),
-    (dict(clip_depth="zero_to_one", depth_order="greater", depth_format="d24"), "--clip-depth zero-to-one --depth-order greater --depth-format d24"),
+    (dict(clip_depth="zero_to_one", depth_order="greater", depth_format="d32f"), "--clip-depth zero-to-one --depth-order greater --depth-format d32f"),
     (dict(samples=4, sample=2), "--samples 4 --sample 2"),
     (dict(samples=4, shading="pixel", load_sample=0), "--samples 4 --shading pixel --load-sample 0"),
     (dict(polygon_offset=(1, 2.5), scissor=(3, 4, 20, 10)), "--polygon-offset 1,2.5 --scissor 3,4,20,10"),
