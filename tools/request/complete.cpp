@@ -19,6 +19,38 @@ std::optional<OptionConflict> conflict_of_coverage(const PictureRequest& request
     return std::nullopt;
 }
 
+// A request of one sample keeps its own place.
+void take_interpolation(PictureRequest& request) {
+    using enum rasterizer::Interpolation;
+    rasterizer::Interpolation& where = request.render.raster.interpolation;
+    if (request.shades_pixels)
+        where = request.interpolate.value_or(where == sample ? centre : where);
+    else if (request.sampling.samples > 1)
+        where = sample;
+    request.interpolate.reset();
+    if (request.shades_pixels && where == centroid) request.interpolate = centroid;
+}
+
+void take_clip_convention(PictureRequest& request, const pipeline::DeviceProfile& profile) {
+    rasterizer::RasterState& raster = request.render.raster;
+    raster.clip_depth = request.clip_depth.value_or(profile.clip_depth);
+    raster.depth_order = request.depth_order.value_or(profile.depth_order);
+}
+
+void take_background(PictureRequest& request) {
+    if (!request.background) return;
+    const pipeline::Rgba c = scenes::from_encoded(*request.background, request.scene_options.color_space);
+    request.render.background = {c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]};
+}
+
+void take_sample(PictureRequest& request, const pipeline::DeviceProfile& profile) {
+    if (!request.sample || request.sampling.samples == 1) return;
+    if (const auto lacking = pipeline::check_multisampling(profile, request.sampling.samples))
+        throw pipeline::Refused{profile, *lacking};
+    pipeline::set_sample(request.render.raster, profile.sample_positions, request.sampling.samples,
+                         static_cast<std::size_t>(*request.sample));
+}
+
 }  // namespace
 
 std::optional<OptionConflict> option_conflict(const PictureRequest& request) {
@@ -45,36 +77,11 @@ std::optional<OptionConflict> option_conflict(const PictureRequest& request) {
     return std::nullopt;
 }
 
-void take_interpolation(PictureRequest& request) {
-    using enum rasterizer::Interpolation;
-    rasterizer::Interpolation& where = request.render.raster.interpolation;
-    if (request.shades_pixels)
-        where = request.interpolate.value_or(where == sample ? centre : where);
-    else if (request.sampling.samples > 1)
-        where = sample;
-    request.interpolate.reset();
-    if (request.shades_pixels && where == centroid) request.interpolate = centroid;
-}
-
-scenes::ClipConvention take_clip_convention(PictureRequest& request, const pipeline::DeviceProfile& profile) {
-    rasterizer::RasterState& raster = request.render.raster;
-    raster.clip_depth = request.clip_depth.value_or(profile.clip_depth);
-    raster.depth_order = request.depth_order.value_or(profile.depth_order);
-    return {raster.clip_depth, raster.depth_order};
-}
-
-void take_background(PictureRequest& request) {
-    if (!request.background) return;
-    const pipeline::Rgba c = scenes::from_encoded(*request.background, request.scene_options.color_space);
-    request.render.background = {c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]};
-}
-
-void take_sample(PictureRequest& request, const pipeline::DeviceProfile& profile) {
-    if (!request.sample || request.sampling.samples == 1) return;
-    if (const auto lacking = pipeline::check_multisampling(profile, request.sampling.samples))
-        throw pipeline::Refused{profile, *lacking};
-    pipeline::set_sample(request.render.raster, profile.sample_positions, request.sampling.samples,
-                         static_cast<std::size_t>(*request.sample));
+void complete(PictureRequest& request, const pipeline::DeviceProfile& profile) {
+    take_clip_convention(request, profile);
+    take_interpolation(request);
+    take_sample(request, profile);
+    take_background(request);
 }
 
 }  // namespace strata::tools

@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "scenes/camera.h"
 #include "tools/request/picture_request.h"
 
 namespace strata::tools {
@@ -17,16 +16,9 @@ struct OptionConflict {
 };
 [[nodiscard]] std::optional<OptionConflict> option_conflict(const PictureRequest& request);
 
-// Sets where programs are evaluated, from shades_pixels and interpolate. A request of one sample keeps its own.
-void take_interpolation(PictureRequest& request);
-
-// Sets the clip convention of the request, else of the profile, and returns it.
-scenes::ClipConvention take_clip_convention(PictureRequest& request, const pipeline::DeviceProfile& profile);
-
-// Sets the background of the frame, premultiplied and in the frame's colour space, if the request has one.
-void take_background(PictureRequest& request);
-
-// Sets the position of --sample. Throws Refused if the profile lacks the number of samples.
-void take_sample(PictureRequest& request, const pipeline::DeviceProfile& profile);
+// Sets what depends on several options or on the profile: the clip convention, where programs are evaluated, the
+// position of --sample, and the background of the frame, premultiplied and in the frame's colour space. Throws Refused
+// if the profile lacks the number of samples of --sample.
+void complete(PictureRequest& request, const pipeline::DeviceProfile& profile);
 
 }  // namespace strata::tools

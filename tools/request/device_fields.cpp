@@ -94,25 +94,17 @@ std::string region_text(const rasterizer::Rect& rect) {
 }
 
 // NEAR,FAR of glDepthRange, which OpenGL clamps to [0, 1].
-OptionField depth_range() {
-    OptionField made{.name = "depth-range",
-                     .group = OptionGroup::depth,
-                     .type = "NEAR,FAR",
-                     .help = "glDepthRange: the depths of the near and of the far plane (default 0,1)",
-                     .expected = "two numbers from 0 to 1 such as 0,0.5"};
-    made.set = [](PictureRequest& request, std::string_view text) {
-        const auto values = to_numbers<float>(text, 2);
-        const auto is_share = [](float value) { return value >= 0 && value <= 1; };
-        if (!values || !std::ranges::all_of(*values, is_share)) return false;
-        request.render.raster.depth_near = (*values)[0];
-        request.render.raster.depth_far = (*values)[1];
-        return true;
-    };
-    made.text = [](const PictureRequest& request) {
-        const RasterState& raster = request.render.raster;
-        return fmt::format("{},{}", raster.depth_near, raster.depth_far);
-    };
-    return made;
+bool set_depth_range(PictureRequest& request, std::string_view text) {
+    const auto values = to_numbers<float>(text, 2);
+    const auto is_share = [](float value) { return value >= 0 && value <= 1; };
+    if (!values || !std::ranges::all_of(*values, is_share)) return false;
+    request.render.raster.depth_near = (*values)[0];
+    request.render.raster.depth_far = (*values)[1];
+    return true;
+}
+
+std::string depth_range_text(const PictureRequest& request) {
+    return fmt::format("{},{}", request.render.raster.depth_near, request.render.raster.depth_far);
 }
 
 // What passes compare and how positions are computed.
@@ -153,7 +145,10 @@ std::vector<OptionField> depth_fields() {
             depth, "clip-depth", clip_depths,
             "where z of clip space begins; zero-to-one: glClipControl, Direct3D (default: the "
             "profile's own)"),
-        depth_range(),
+        joint(depth,
+              {"depth-range", "NEAR,FAR", "glDepthRange: the depths of the near and of the far plane (default 0,1)",
+               "two numbers from 0 to 1 such as 0,0.5"},
+              set_depth_range, depth_range_text),
         field<&PictureRequest::render, &RenderOptions::raster, &RasterState::scissor>(
             depth,
             {"scissor", "X,Y,W,H",

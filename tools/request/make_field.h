@@ -31,24 +31,32 @@ inline constexpr bool is_optional = false;
 template <class T>
 inline constexpr bool is_optional<std::optional<T>> = true;
 
+// An option of several members.
+[[nodiscard]] inline OptionField joint(OptionGroup group, const FieldText& text,
+                                       std::function<bool(PictureRequest&, std::string_view)> set,
+                                       std::function<std::string(const PictureRequest&)> write) {
+    OptionField made{
+        .name = text.name, .group = group, .type = text.type, .help = text.help, .expected = text.expected};
+    made.set = std::move(set);
+    made.text = std::move(write);
+    return made;
+}
+
 // An option whose text `read` converts to an optional value, and whose value `write` converts to text.
 template <auto... path, class Read, class Write>
 [[nodiscard]] OptionField field(OptionGroup group, const FieldText& text, Read read, Write write) {
-    OptionField made{
-        .name = text.name, .group = group, .type = text.type, .help = text.help, .expected = text.expected};
-    made.set = [read](PictureRequest& request, std::string_view given) {
+    const auto set = [read](PictureRequest& request, std::string_view given) {
         const auto value = read(given);
         if (value) at<path...>(request) = *value;
         return value.has_value();
     };
-    made.text = [write](const PictureRequest& request) -> std::string {
+    return joint(group, text, set, [write](const PictureRequest& request) -> std::string {
         const auto& value = at<path...>(request);
         if constexpr (is_optional<std::remove_cvref_t<decltype(value)>>)
             return value ? write(*value) : "";
         else
             return write(value);
-    };
-    return made;
+    });
 }
 
 // A number, written in the shortest decimals that read back.

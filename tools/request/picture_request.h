@@ -1,4 +1,4 @@
-// tools/request/picture_request.h - what somebody asks of a picture, before the profile and the scene are read: one
+// tools/request/picture_request.h - what a user asks of a picture, before the profile and the scene are read: one
 // field for each option of option_fields.h.
 //
 // Rule     Defaults are those of scenes/reference/reports.md 6. A value that the profile or the scene completes is

@@ -11,60 +11,46 @@ namespace {
 
 using scenes::SceneOptions;
 
-// One option fills width and height.
-OptionField size_field() {
-    OptionField made{.name = "size",
-                     .group = OptionGroup::view,
-                     .type = "WIDTHxHEIGHT",
-                     .help = "pixels (default 1024x1024)",
-                     .expected = "WIDTHxHEIGHT such as 640x480, each from 1 to 16384"};
-    made.set = [](PictureRequest& request, std::string_view text) {
-        const auto size = to_size(text);
-        if (!size) return false;
-        request.render.width = size->width;
-        request.render.height = size->height;
-        return request.states_size = true;
-    };
-    made.text = [](const PictureRequest& request) {
-        return fmt::format("{}x{}", request.render.width, request.render.height);
-    };
-    return made;
+bool set_size(PictureRequest& request, std::string_view text) {
+    const auto size = to_size(text);
+    if (!size) return false;
+    request.render.width = size->width;
+    request.render.height = size->height;
+    return request.states_size = true;
 }
 
-// "0.5" for everything, or "glass=0.3,water=0.5".
-OptionField alpha_field() {
-    OptionField made{.name = "alpha",
-                     .group = OptionGroup::view,
-                     .type = "A|MATERIAL=A[,...]",
-                     .help = "draw everything as transparent, its own alpha times A, or these materials alone",
-                     .expected = "a number from 0 to 1, or MATERIAL=A with commas between"};
-    made.set = [](PictureRequest& request, std::string_view text) {
-        std::optional<float> everything;
-        std::vector<scenes::MaterialAlpha> materials;
-        if (text.find('=') == text.npos) {
-            everything = to_share(text);
-            if (!everything) return false;
-        } else {
-            for (const std::string& part : split(text, ',')) {
-                const std::size_t is = part.rfind('=');
-                if (is == std::string::npos || is == 0) return false;
-                const auto alpha = to_share(std::string_view(part).substr(is + 1));
-                if (!alpha) return false;
-                materials.push_back({part.substr(0, is), *alpha});
-            }
-        }
-        request.render.alpha = everything;
-        request.scene_options.alpha = std::move(materials);
-        return true;
-    };
-    made.text = [](const PictureRequest& request) {
-        if (request.render.alpha) return fmt::format("{}", *request.render.alpha);
-        std::string text;
-        for (const scenes::MaterialAlpha& one : request.scene_options.alpha)
-            text += fmt::format("{}{}={}", text.empty() ? "" : ",", one.material, one.alpha);
-        return text;
-    };
-    return made;
+std::string size_text(const PictureRequest& request) {
+    return fmt::format("{}x{}", request.render.width, request.render.height);
+}
+
+// The alphas of "glass=0.3,water=0.5".
+std::optional<std::vector<scenes::MaterialAlpha>> to_material_alphas(std::string_view text) {
+    std::vector<scenes::MaterialAlpha> materials;
+    for (const std::string& part : split(text, ',')) {
+        const std::size_t is = part.rfind('=');
+        const auto alpha = is == std::string::npos ? std::nullopt : to_share(std::string_view(part).substr(is + 1));
+        if (!alpha || is == 0) return std::nullopt;
+        materials.push_back({part.substr(0, is), *alpha});
+    }
+    return materials;
+}
+
+// "0.5" for everything, or an alpha for each of some materials.
+bool set_alpha(PictureRequest& request, std::string_view text) {
+    const auto everything = to_share(text);
+    const auto materials = everything ? std::optional{std::vector<scenes::MaterialAlpha>{}} : to_material_alphas(text);
+    if (!materials) return false;
+    request.render.alpha = everything;
+    request.scene_options.alpha = *materials;
+    return true;
+}
+
+std::string alpha_text(const PictureRequest& request) {
+    if (request.render.alpha) return fmt::format("{}", *request.render.alpha);
+    std::string text;
+    for (const scenes::MaterialAlpha& one : request.scene_options.alpha)
+        text += fmt::format("{}{}={}", text.empty() ? "" : ",", one.material, one.alpha);
+    return text;
 }
 
 // A name that a file or a camera may have.
@@ -94,7 +80,10 @@ std::vector<OptionField> view_fields() {
             reading, "color-space", color_spaces,
             "blend sRGB values as they are, or decoded to linear light (default encoded)"),
         flag<&PictureRequest::scene_options, &SceneOptions::light>(reading, "light", "draw every material unlit"),
-        size_field(),
+        joint(view,
+              {"size", "WIDTHxHEIGHT", "pixels (default 1024x1024)",
+               "WIDTHxHEIGHT such as 640x480, each from 1 to 16384"},
+              set_size, size_text),
         field<&PictureRequest::orbit>(
             view,
             {"orbit", "AZ,EL", "look at the scene's bounds from these degrees (default 30,20)",
@@ -103,7 +92,11 @@ std::vector<OptionField> view_fields() {
         field<&PictureRequest::camera>(
             view, {"camera", "NAME|FILE", "a camera of the scene, or a JSON file with one", "a camera's name or file"},
             to_name, [](const std::string& name) { return name; }),
-        alpha_field(),
+        joint(view,
+              {"alpha", "A|MATERIAL=A[,...]",
+               "draw everything as transparent, its own alpha times A, or these materials alone",
+               "a number from 0 to 1, or MATERIAL=A with commas between"},
+              set_alpha, alpha_text),
         field<&PictureRequest::background>(
             view,
             {"background", "R,G,B[,A]|none", "sRGB values from 0 to 1, and alpha; none is 0,0,0,0 (default 0,0,0,1)",

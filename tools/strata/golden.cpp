@@ -10,7 +10,6 @@
 #include "peeling/sampled_renderer.h"
 #include "scenes/packs/new_folder.h"
 #include "tools/oracle/suite/suite_packs.h"
-#include "tools/request/choices.h"
 #include "tools/strata/command.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
@@ -147,8 +146,7 @@ Command add_golden(CLI::App& root) {
         "--suite", options->suite,
         "write the standard set: small scenes in which every known mistake shows; SCENE may name one of them");
     app->add_flag("--exr", options->exr, "next to the arrays, EXR files of the picture, the layers and every pass");
-    add_choice(*app, options->run.render.simd, "--simd", simds,
-               "instruction set; same bits (default best: what the processor has)");
+    add_option_of_table(*app, options->run, "simd");
     app->footer(
         "Examples:\n"
         "  strata golden teapot --size 64x48 --algorithm front_to_back,dual -o pack && strata golden --check pack\n"

@@ -185,8 +185,7 @@ Command add_multisampling(CLI::App& root) {
            },
            "algorithms with commas between (default " + options->run.default_algorithm + ")")
         ->type_name("NAME[,NAME...]");
-    add_choice(*app, options->run.sampling.samples, "--samples", sample_counts,
-               "samples per pixel, 2, 4 or 8 (default 4)");
+    add_option_of_table(*app, options->run, "samples")->description("samples per pixel, 2, 4 or 8 (default 4)");
     add_profile_option(*app, options->run.profile);
     for (const OptionGroup group : {OptionGroup::depth, OptionGroup::targets, OptionGroup::algorithm})
         add_options(*app, options->run, group);

@@ -93,7 +93,8 @@ SamplesVerdict judge_samples(const RunInput& input, const AskedPicture& picture,
                                             .has_alpha = picture.has_alpha,
                                             .is_frame_linear = input.space == pipeline::ColorSpace::linear,
                                             .algorithm = picture.algorithm};
-    if (const std::string name = equal_sampled_algorithm(input, question, wrong_pixels(verdict.found)); !name.empty()) {
+    const rasterizer::Rect part = verdict::most_wrong(wrong_pixels(verdict.found), picture.colors.width);
+    if (const std::string name = equal_algorithm(input, question, part); !name.empty()) {
         verdict.found.equal_to = name;
         verdict.found.wrong_pixels.clear();
         verdict.found.wrong_at_edges = 0;

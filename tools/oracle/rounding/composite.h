@@ -21,6 +21,7 @@
 #include "rasterizer/base/vector.h"
 #include "tools/oracle/rounding/hypothesis.h"
 #include "tools/oracle/rounding/interval.h"
+#include "tools/oracle/rounding/storage_rounding.h"
 
 namespace strata::oracle::verdict {
 
@@ -94,65 +95,6 @@ struct ReachableColor {
 };
 // True if the pixel can have this colour; alpha is not compared.
 [[nodiscard]] bool holds(const ReachableColor& reach, const std::array<double, 4>& value) noexcept;
-
-// The rounding of a value that is stored, as numbers derived once from a hypothesis.
-struct StorageRounding {
-    bool has_codes = true;  // false: a float
-    double scale = 255, inverse = 1.0 / 255;
-    double minus = 0, plus = 0;  // codes: largest distance of the stored value below and above the exact result
-    bool snaps = true;           // false: values between codes are possible
-    double truncation_low = 0, truncation_high = 0;
-    bool truncates = false;          // truncates to whole codes after adding cut_low or cut_high
-    double relative = 0, least = 0;  // floats
-    enum class Half : std::uint8_t { none, nearest, truncated };
-    Half half = Half::none;  // for binary16: the value, after the errors above, is rounded to nearest or truncated.
-
-    [[nodiscard]] Interval kept(Interval exact, double magnitude) const noexcept {
-        if (!has_codes && half != Half::none) {
-            const auto rounded = [&](double v) {
-                return half == Half::truncated ? truncated_half(v) : nearest_half(v);
-            };
-            const auto spacing = [&](double v) { return std::fabs(v) < 0x1p-14 ? least : 0; };  // of subnormals
-            const Interval off = exact.widened(magnitude * relative);
-            const double low = rounded(off.low), high = rounded(off.high);
-            return {low - spacing(low), high + spacing(high)};
-        }
-        if (!has_codes) return exact.widened(magnitude * relative + least);
-        double low = below(exact.low * scale), high = above(exact.high * scale);
-        if (truncates) {
-            low = floor_of(low + truncation_low);
-            high = floor_of(high + truncation_high);
-        } else {
-            low -= minus;
-            high += plus;
-            if (snaps) {
-                low = ceil_of(low);
-                high = floor_of(high);
-            }
-        }
-        return {std::min(std::max(low, 0.0), scale) * inverse, std::min(std::max(high, 0.0), scale) * inverse};
-    }
-
-    // Exact for |x| < 2^51: the sum is between 2^52 and 2^53, where binary64 has a spacing of 1.
-    [[nodiscard]] static double nearest_whole(double x) noexcept { return (x + 0x1.8p52) - 0x1.8p52; }
-    [[nodiscard]] static double floor_of(double x) noexcept {
-        const double whole = nearest_whole(x);
-        return whole - (whole > x ? 1.0 : 0.0);
-    }
-    // Rounds to 11 bits by Veltkamp's splitting; ties go either way.
-    [[nodiscard]] static double nearest_half(double x) noexcept {
-        const double far = (0x1p42 + 1) * x;
-        return far - (far - x);
-    }
-    [[nodiscard]] static double truncated_half(double x) noexcept {
-        const double near = nearest_half(x);
-        return std::fabs(near) > std::fabs(x) ? nearest_half(near * (1 - 0x1p-11)) : near;
-    }
-    [[nodiscard]] static double ceil_of(double x) noexcept {
-        const double whole = nearest_whole(x);
-        return whole + (whole < x ? 1.0 : 0.0);
-    }
-};
 
 class Compositor {
   public:

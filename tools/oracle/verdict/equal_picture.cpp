@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "peeling/registry.h"
-#include "peeling/render.h"
 #include "peeling/sampled_renderer.h"
 #include "pipeline/device/check.h"
 #include "tools/oracle/picture/stored_like.h"
@@ -19,25 +18,6 @@ namespace strata::oracle::verdict {
 namespace {
 
 using pipeline::Format;
-
-// The square of a grid with the most fragments.
-rasterizer::Rect fullest(const SceneFragments& scene) {
-    constexpr int side = 32;
-    const int columns = (scene.width() + side - 1) / side;
-    std::vector<std::uint64_t> counts(static_cast<std::size_t>(columns) *
-                                      static_cast<std::size_t>((scene.height() + side - 1) / side));
-    std::mutex mutex;
-    scene.for_each_tile([&](const TileLists& tile) {
-        const std::scoped_lock lock{mutex};
-        for (std::size_t p = 0; p < tile.rect.area(); ++p) {
-            const PixelList list = scene.at(tile, p);
-            counts[static_cast<std::size_t>(list.y / side * columns + list.x / side)] += list.visible.size();
-        }
-    });
-    const int most = static_cast<int>(std::ranges::max_element(counts) - counts.begin());
-    const int x = most % columns * side, y = most / columns * side;
-    return {x, y, std::min(x + side, scene.width()), std::min(y + side, scene.height())};
-}
 
 // A finished picture as the candidate's file has it; empty if its codes are of another type.
 std::optional<TargetImage> as_stored(const pipeline::Image& image, const PictureQuestion& question) {
@@ -68,15 +48,15 @@ bool keeps_ties(const peeling::Algorithm& algorithm) {
     return algorithm.ties != peeling::TiePolicy::unique && algorithm.ties != peeling::TiePolicy::merged;
 }
 
-constexpr const char* usual_algorithms[] = {"dual", "front_to_back", "a_buffer"};
-
-std::vector<const peeling::Algorithm*> tried(const peeling::Algorithm* stated) {
+// The stated algorithm first, else the usual ones; then every other exact one, but for several samples per pixel, where
+// each picture is drawn once per sample.
+std::vector<const peeling::Algorithm*> tried(const peeling::Algorithm* stated, int samples) {
     std::vector<const peeling::Algorithm*> all;
     if (stated != nullptr) all.push_back(stated);
-    for (const char* usual : usual_algorithms)
+    for (const char* usual : {"dual", "front_to_back", "a_buffer"})
         if (stated == nullptr) all.push_back(peeling::find_algorithm(usual));
     for (const peeling::Algorithm& a : peeling::algorithms())
-        if (a.exact && std::ranges::find(all, &a) == all.end() &&
+        if (samples == 1 && a.exact && std::ranges::find(all, &a) == all.end() &&
             (stated == nullptr || keeps_ties(a) == keeps_ties(*stated)))
             all.push_back(&a);
     return all;
@@ -92,48 +72,34 @@ std::vector<std::optional<Format>> formats_of(const RunInput& input, Code code) 
 
 }  // namespace
 
-std::string equal_algorithm(const RunInput& input, const PictureQuestion& question, const SceneFragments& scene) {
-    const rasterizer::Rect whole{0, 0, scene.width(), scene.height()}, part = fullest(scene);
-    for (const std::optional<Format> format : formats_of(input, question.colors.code))
-        for (const peeling::Algorithm* const algorithm : tried(question.algorithm)) {
-            peeling::RenderOptions options = input.options;
-            options.audit = false;
-            options.color_format = format;
-            const auto equals = [&](const rasterizer::Rect& rect) {
-                options.raster.scissor =
-                    input.options.raster.scissor ? rasterizer::intersection(*input.options.raster.scissor, rect) : rect;
-                if (rect == whole) options.raster.scissor = input.options.raster.scissor;
-                const peeling::RenderResult drawn =
-                    peeling::Renderer{input.list, input.view, input.profile, options}.render(*algorithm);
-                if (drawn.refusal) return false;
-                const auto own = as_stored(drawn.frame.color, question);
-                return own && is_equal(*own, question, rect);
-            };
-            try {
-                if (equals(part) && equals(whole)) return algorithm->name;
-            } catch (const pipeline::Refused&) {
-            }
+rasterizer::Rect fullest(const SceneFragments& scene) {
+    constexpr int side = 32;
+    const int columns = (scene.width() + side - 1) / side;
+    std::vector<std::uint64_t> counts(static_cast<std::size_t>(columns) *
+                                      static_cast<std::size_t>((scene.height() + side - 1) / side));
+    std::mutex mutex;
+    scene.for_each_tile([&](const TileLists& tile) {
+        const std::scoped_lock lock{mutex};
+        for (std::size_t p = 0; p < tile.rect.area(); ++p) {
+            const PixelList list = scene.at(tile, p);
+            counts[static_cast<std::size_t>(list.y / side * columns + list.x / side)] += list.visible.size();
         }
-    return "";
+    });
+    const int most = static_cast<int>(std::ranges::max_element(counts) - counts.begin());
+    const int x = most % columns * side, y = most / columns * side;
+    return {x, y, std::min(x + side, scene.width()), std::min(y + side, scene.height())};
 }
 
-std::string equal_sampled_algorithm(const RunInput& input, const PictureQuestion& question,
-                                    const std::vector<std::uint32_t>& wrong) {
-    const rasterizer::Rect whole{0, 0, question.colors.width, question.colors.height},
-        part = most_wrong(wrong, question.colors.width);
-    std::vector<const peeling::Algorithm*> all;
-    if (question.algorithm != nullptr) all.push_back(question.algorithm);
-    for (const char* usual : usual_algorithms)
-        if (question.algorithm == nullptr) all.push_back(peeling::find_algorithm(usual));
+std::string equal_algorithm(const RunInput& input, const PictureQuestion& question, const rasterizer::Rect& part) {
+    const rasterizer::Rect whole{0, 0, question.colors.width, question.colors.height};
     for (const std::optional<Format> format : formats_of(input, question.colors.code))
-        for (const peeling::Algorithm* const algorithm : all) {
+        for (const peeling::Algorithm* const algorithm : tried(question.algorithm, input.sampling.samples)) {
             const auto equals = [&](const rasterizer::Rect& rect) {
                 peeling::RenderOptions options = rect == whole ? input.options : scissored(input.options, rect);
                 options.audit = false;
                 options.color_format = format;
-                const peeling::RenderResult drawn =
-                    peeling::SampledRenderer{input.list, input.view, input.profile, options, input.sampling}.render(
-                        *algorithm);
+                peeling::SampledRenderer renderer{input.list, input.view, input.profile, options, input.sampling};
+                const peeling::RenderResult drawn = renderer.render(*algorithm);
                 const auto own = drawn.refusal ? std::nullopt : as_stored(drawn.frame.color, question);
                 return own && is_equal(*own, question, rect);
             };

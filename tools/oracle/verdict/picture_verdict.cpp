@@ -65,7 +65,7 @@ class PictureJudge {
     [[nodiscard]] PictureVerdict decide() && {
         auto quick = judge_quickly(scene(), seen());
         if (quick && quick->state() == State::right) return with(*std::move(quick));
-        if (const std::string name = equal_algorithm(input_, question_, scene()); !name.empty())
+        if (const std::string name = equal_algorithm(input_, question_, fullest(scene())); !name.empty())
             return with(equal_to(name));
         if (auto right = by_another_reading()) return with(*std::move(right));
         result_.found = quick ? *std::move(quick) : judge_at_length(scene(), seen());

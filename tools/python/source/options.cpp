@@ -73,10 +73,7 @@ Settings settings_of(const py::kwargs& keywords, DeviceProfile& profile) {
     if (const auto found = tools::option_conflict(request))
         throw InputError("options", found->option, found->sentence, "");
     if (request.origin) profile = with_origin(profile, *request.origin);
-    tools::take_interpolation(request);
-    tools::take_clip_convention(request, profile);
-    tools::take_sample(request, profile);
-    tools::take_background(request);
+    tools::complete(request, profile);
     if (request.sample) request.sampling.samples = 1;
     return {request.render, request.sampling};
 }

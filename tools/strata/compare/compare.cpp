@@ -312,9 +312,9 @@ Command add_compare(CLI::App& root) {
         add_options(*app, options->run, group);
     add_options(*app, options->run, OptionGroup::order);
     add_options(*app, options->run, OptionGroup::view);
-    describe_size_of_picture(*app);
-    add_choice(*app, options->run.sampling.samples, "--samples", sample_counts,
-               "samples per pixel of the port, whose resolved picture is compared (default 1)");
+    app->get_option("--size")->description(help_of_picture_size);
+    add_option_of_table(*app, options->run, "samples")
+        ->description("samples per pixel of the port, whose resolved picture is compared (default 1)");
     add_options(*app, options->run, OptionGroup::shading);
     app->footer(
         "Examples:\n"

@@ -52,17 +52,16 @@ void add_algorithm_option(CLI::App& app, RunOptions& options) {
         ->type_name(options.takes_one_algorithm ? "NAME" : "NAME[,NAME...]|all");
 }
 
-void add_field(CLI::App& app, PictureRequest& request, const OptionField& field) {
+CLI::Option* add_field(CLI::App& app, PictureRequest& request, const OptionField& field) {
     if (field.is_flag) {
         const std::string value = field.is_on_by_default() ? "false" : "true";
-        app.add_flag_callback(
+        return app.add_flag_callback(
             field.option(), [&request, &field, value] { field.set(request, value); }, field.help);
-        return;
     }
     const auto fill = [&request, &field](const std::string& given) {
         if (!field.set(request, given)) throw CLI::ValidationError(field.option(), expectation(field, given));
     };
-    app.add_option_function<std::string>(field.option(), fill, field.help)->type_name(field.type);
+    return app.add_option_function<std::string>(field.option(), fill, field.help)->type_name(field.type);
 }
 
 void add_scene(CLI::App& app, const std::function<void(const std::string&)>& take) {
@@ -84,6 +83,10 @@ std::vector<std::string> algorithm_names() {
 void add_options(CLI::App& app, PictureRequest& request, OptionGroup group) {
     for (const OptionField& field : option_fields())
         if (field.group == group) add_field(app, request, field);
+}
+
+CLI::Option* add_option_of_table(CLI::App& app, PictureRequest& request, std::string_view name) {
+    return add_field(app, request, *find_option(name));
 }
 
 void add_scene_options(CLI::App& app, std::string& scene, PictureRequest& request) {
@@ -121,11 +124,7 @@ void add_picture_options(CLI::App& app, RunOptions& options) {
     add_profile_option(app, options.profile);
     for (const OptionGroup group : {origin, depth, targets, algorithm, samples, shading, order, view})
         add_options(app, options, group);
-    if (options.takes_size_of_picture) describe_size_of_picture(app);
-}
-
-void describe_size_of_picture(CLI::App& app) {
-    app.get_option("--size")->description("the size in pixels that the picture must have (default: the picture's)");
+    if (options.takes_size_of_picture) app.get_option("--size")->description(help_of_picture_size);
 }
 
 peeling::Multisampling sampling_of(const RunOptions& options) noexcept {
@@ -148,7 +147,6 @@ void complete(RunOptions& options) {
         if (found->option.empty()) throw CLI::ValidationError(found->sentence);
         throw CLI::ValidationError(found->option, found->sentence);
     }
-    take_interpolation(options);
     // A pack has its own background, so black counts, too, if it replaces that.
     if (options.background == pipeline::Rgba{0, 0, 0, 1} && !scenes::is_pack(options.scene)) options.background.reset();
     if (is_piped && options.algorithms.size() > 1)

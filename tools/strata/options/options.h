@@ -43,7 +43,11 @@ struct RunOptions : PictureRequest {
 // Adds the options of a group of the table (tools/request/option_fields.h), in its order. --help and messages are made
 // from the table.
 void add_options(CLI::App& app, PictureRequest& request, OptionGroup group);
-void describe_size_of_picture(CLI::App& app);  // in the help of a command in which --size may only confirm it
+// Adds one option of the table, by its name.
+CLI::Option* add_option_of_table(CLI::App& app, PictureRequest& request, std::string_view name);
+// The help of --size in a command in which it may only confirm a picture's size.
+inline constexpr const char* help_of_picture_size =
+    "the size in pixels that the picture must have (default: the picture's)";
 // Adds SCENE, --scene, --color-space and --no-light.
 void add_scene_options(CLI::App& app, std::string& scene, PictureRequest& request);
 

@@ -81,12 +81,12 @@ void warn_of_opaque(const RunOptions& options, const scenes::Scene& scene) {
 
 // An option that repeats the profile's convention is dropped, so that canonical_command has one spelling, unless it
 // overrides a pack's.
-void drop_repeated_convention(RunOptions& options, const pipeline::DeviceProfile& profile,
-                              const scenes::ClipConvention& taken) {
-    const scenes::ClipConvention of_profile{profile.clip_depth, profile.depth_order},
-        of_pack = options.pack_convention.value_or(of_profile);
-    if (taken.clip_depth == of_profile.clip_depth && taken.clip_depth == of_pack.clip_depth) options.clip_depth.reset();
-    if (taken.depth_order == of_profile.depth_order && taken.depth_order == of_pack.depth_order)
+void drop_repeated_convention(RunOptions& options, const pipeline::DeviceProfile& profile) {
+    const rasterizer::RasterState& taken = options.render.raster;
+    const scenes::ClipConvention of_pack =
+        options.pack_convention.value_or(scenes::ClipConvention{profile.clip_depth, profile.depth_order});
+    if (taken.clip_depth == profile.clip_depth && taken.clip_depth == of_pack.clip_depth) options.clip_depth.reset();
+    if (taken.depth_order == profile.depth_order && taken.depth_order == of_pack.depth_order)
         options.depth_order.reset();
 }
 
@@ -136,8 +136,8 @@ Session open_session(RunOptions& options) {
         say_warning(fmt::format("{}: the values of {} were never measured; results that depend on them are unverified",
                                 options.profile, fmt::join(open, ", ")));
     if (options.origin) session.profile = with_origin(session.profile, *options.origin);
-    drop_repeated_convention(options, session.profile, take_clip_convention(options, session.profile));
-    take_sample(options, session.profile);
+    complete(options, session.profile);
+    drop_repeated_convention(options, session.profile);
     const auto start = std::chrono::steady_clock::now();
     session.scene = scenes::load_scene(options.scene, options.scene_options);
     // Refused before the frame is drawn; AtomicFile refuses other results.
@@ -157,7 +157,6 @@ Session open_session(RunOptions& options) {
     session.view =
         scenes::with_clip_convention(find_view(options, session.scene), own, {raster.clip_depth, raster.depth_order});
     check_sorted(options, session.scene);
-    take_background(options);
     return session;
 }
 
