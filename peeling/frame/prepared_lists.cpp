@@ -42,14 +42,14 @@ PreparedLists::PreparedLists(Settings settings) : s_{std::move(settings)} {
 }
 
 const PreparedDraw& PreparedLists::transparent(ListOrder order) {
-    auto& prepared = transparent_[static_cast<std::size_t>(order)];
-    if (!prepared) {
+    TimedList& prepared = transparent_[static_cast<std::size_t>(order)];
+    if (!prepared.draw) {
         PrepareOptions ordered = prepare_options(transparent_selection());
         ordered.order = ordering(order);
         ordered.is_checked = true;  // checked at construction
         prepared = prepare(s_.list, s_.view, s_.raster, ordered);
     }
-    return *prepared;
+    return *prepared.draw;
 }
 
 rasterizer::TriangleSoup PreparedLists::opaque_soup() const {
@@ -67,10 +67,11 @@ std::vector<std::uint32_t> PreparedLists::submission(ListOrder order) const {
 
 // Binning is separate from preparation: a list may be binned again for another tile size.
 void PreparedLists::bin(int tile_size_px) {
-    const Stopwatch watch{seconds_};
-    const auto bin_one = [&](std::optional<PreparedDraw>& list) {
-        if (list && list->geometry.tile_size != tile_size_px)
-            bin_triangles(list->geometry, tile_size_px, s_.options.threads);
+    const auto bin_one = [&](TimedList& list) {
+        if (!list.draw || list.draw->geometry.tile_size == tile_size_px) return;
+        list.binned_seconds = 0;
+        const Stopwatch watch{list.binned_seconds};
+        bin_triangles(list.draw->geometry, tile_size_px, s_.options.threads);
     };
     std::ranges::for_each(transparent_, bin_one);
     bin_one(opaque_);
@@ -96,13 +97,17 @@ Selection PreparedLists::transparent_selection() const {
     return s_.options.alpha ? Selection::all : Selection::transparent;
 }
 
-PreparedDraw PreparedLists::prepare(const DrawList& list, const View& view, const rasterizer::RasterState& raster,
-                                    const PrepareOptions& options) {
-    const Stopwatch watch{seconds_};
-    PreparedDraw prepared = pipeline::prepare(list, view, raster, s_.profile, options);
-    // After set-up: the same triangles, translated by whole pixels.
-    const auto& [x, y] = s_.options.window_origin;
-    if (x != 0 || y != 0) move_window(prepared.geometry, x, y);
+PreparedLists::TimedList PreparedLists::prepare(const DrawList& list, const View& view,
+                                                const rasterizer::RasterState& raster,
+                                                const PrepareOptions& options) const {
+    TimedList prepared;
+    {
+        const Stopwatch watch{prepared.prepared_seconds};
+        prepared.draw = pipeline::prepare(list, view, raster, s_.profile, options);
+        // After set-up: the same triangles, translated by whole pixels.
+        const auto& [x, y] = s_.options.window_origin;
+        if (x != 0 || y != 0) move_window(prepared.draw->geometry, x, y);
+    }
     return prepared;
 }
 

@@ -35,31 +35,41 @@ class PreparedLists {
     [[nodiscard]] const pipeline::PreparedDraw& transparent(ListOrder order);
     // Sorts all existing lists into tiles of this size, unless they already are.
     void bin(int tile_size_px);
-    [[nodiscard]] const pipeline::PreparedDraw* opaque() const noexcept { return opaque_ ? &*opaque_ : nullptr; }
-    [[nodiscard]] const pipeline::PreparedDraw* second() const noexcept { return second_ ? &*second_ : nullptr; }
+    [[nodiscard]] const pipeline::PreparedDraw* opaque() const noexcept { return opaque_.get(); }
+    [[nodiscard]] const pipeline::PreparedDraw* second() const noexcept { return second_.get(); }
     // The input of set-up, for callers that need the vertices. submission: the indices of the transparent soup's
     // triangles in submission order, empty if as listed.
     [[nodiscard]] rasterizer::TriangleSoup opaque_soup() const;
     [[nodiscard]] rasterizer::TriangleSoup transparent_soup() const;
     [[nodiscard]] std::vector<std::uint32_t> submission(ListOrder order) const;
-    [[nodiscard]] double seconds() const noexcept { return seconds_; }
+    // The time in which the lists of an algorithm with this order were prepared and last binned, also if an earlier
+    // algorithm drew them first.
+    [[nodiscard]] double seconds(ListOrder order) const noexcept {
+        return transparent_[static_cast<std::size_t>(order)].seconds() + opaque_.seconds() + second_.seconds();
+    }
     [[nodiscard]] const Settings& settings() const noexcept { return s_; }
 
   private:
+    struct TimedList {
+        std::optional<pipeline::PreparedDraw> draw{};
+        double prepared_seconds = 0, binned_seconds = 0;
+        [[nodiscard]] const pipeline::PreparedDraw* get() const noexcept { return draw ? &*draw : nullptr; }
+        [[nodiscard]] double seconds() const noexcept { return prepared_seconds + binned_seconds; }
+    };
+
     [[nodiscard]] pipeline::PrepareOptions prepare_options(pipeline::Selection selection) const;
     [[nodiscard]] pipeline::Selection transparent_selection() const;
-    [[nodiscard]] pipeline::PreparedDraw prepare(const pipeline::DrawList& list, const pipeline::View& view,
-                                                 const rasterizer::RasterState& raster,
-                                                 const pipeline::PrepareOptions& options);
+    [[nodiscard]] TimedList prepare(const pipeline::DrawList& list, const pipeline::View& view,
+                                    const rasterizer::RasterState& raster,
+                                    const pipeline::PrepareOptions& options) const;
     void prepare_second();
     [[nodiscard]] bool arrives_sorted(const pipeline::Instance& instance) const;
     [[nodiscard]] PartSort parts_of(const rasterizer::TriangleSoup& soup, ListOrder order) const;
     [[nodiscard]] pipeline::Ordering ordering(ListOrder order) const;
 
     Settings s_;
-    std::array<std::optional<pipeline::PreparedDraw>, 4> transparent_{};  // indexed by ListOrder
-    std::optional<pipeline::PreparedDraw> opaque_{}, second_{};
-    double seconds_ = 0;
+    std::array<TimedList, 4> transparent_{};  // indexed by ListOrder
+    TimedList opaque_{}, second_{};
 };
 
 }  // namespace strata::peeling

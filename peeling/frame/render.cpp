@@ -34,11 +34,10 @@ struct RenderCall {
     std::vector<RegionTrace>* traces;  // null: the frame is audited, if the options say so
 };
 
-RenderResult refused(Refusal refusal, double geometry_seconds) {
+RenderResult refused(Refusal refusal) {
     RenderResult result;
     result.outcome = Outcome::refused;
     result.refusal = std::move(refusal);
-    result.seconds.geometry = geometry_seconds;
     return result;
 }
 
@@ -126,17 +125,17 @@ struct Renderer::State {
 
     [[nodiscard]] RenderResult render(const Algorithm& algorithm, const RenderCall& call) {
         const SimdScope kernels{setup.options.simd};
-        if (auto lacking = refusal_of(algorithm, setup)) return refused(*std::move(lacking), setup.seconds());
+        if (auto lacking = refusal_of(algorithm, setup)) return refused(*std::move(lacking));
         try {
             Frame f = frame(algorithm, call.instruments);
             set_trace(call, f);
             RenderResult result = run_passes(f, body(algorithm), setup, algorithm, call);
-            result.seconds.geometry = setup.seconds();
+            result.seconds.geometry = setup.seconds_of(algorithm);
             add_diagnostics(f, setup, algorithm, setup.options.audit && call.traces == nullptr, result);
             turn_as_shown(setup.shown(), result, call.traces);
             return result;
         } catch (const Refused& lacking) {
-            return refused(lacking.refusal, setup.seconds());
+            return refused(lacking.refusal);
         }
     }
 };
@@ -162,7 +161,7 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress, c
     FrameSetup& setup = state_->setup;
     const SimdScope kernels{setup.options.simd};
     const Algorithm& one_pass = *find_algorithm("unsorted");
-    if (auto lacking = refusal_of_depth_pass(one_pass, setup)) return refused(*std::move(lacking), 0);
+    if (auto lacking = refusal_of_depth_pass(one_pass, setup)) return refused(*std::move(lacking));
     Frame frame = state_->frame(one_pass, {});
     frame.nearest_depth = frame.trace = false;
     frame.published_format = target_format(frame.key_request().format);
@@ -174,7 +173,7 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress, c
     }
     std::swap(result.frame.depth, result.frame.color);
     setup.shown().turn(result.frame);
-    result.seconds.geometry = setup.lists.seconds();
+    result.seconds.geometry = setup.seconds_of(one_pass);
     return result;
 }
 

@@ -46,9 +46,7 @@ bool FrameSetup::is_invariant() const noexcept {
            depth.reference.value_or(depth.path) == depth.path;
 }
 
-double FrameSetup::seconds() const noexcept {
-    return lists.seconds() + (quotient_lists ? quotient_lists->seconds() : 0.0);
-}
+double FrameSetup::seconds_of(const Algorithm& algorithm) { return lists_for(algorithm).seconds(algorithm.order); }
 
 FrameSetup set_up_frames(const DrawList& list, const View& view, const DeviceProfile& profile,
                          const RenderOptions& options) {

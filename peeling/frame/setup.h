@@ -36,7 +36,7 @@ struct FrameSetup {
     // stores.
     [[nodiscard]] bool is_invariant() const noexcept;
     [[nodiscard]] AsShown shown() const noexcept { return {options, profile}; }
-    [[nodiscard]] double seconds() const noexcept;  // that the lists took
+    [[nodiscard]] double seconds_of(const Algorithm& algorithm);  // that its lists took
 };
 
 // Throws InputError as the constructor of Renderer does. `list` must outlive the setup.

@@ -66,6 +66,17 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("the seconds of an algorithm's lists do not contain those of the algorithms before it") {
+    const TriangleScene scene = random_triangles(804, 40);
+    Renderer renderer{scene.list, scene.view, *pipeline::find_profile("geforce8"), options_sized(90, 70)};
+    const auto rendered = [&](const char* name) { return renderer.render(*peeling::find_algorithm(name)); };
+    const RenderResult first = rendered("dual"), between = rendered("painter"), last = rendered("dual");
+    REQUIRE(first.frame.work.tile_size == between.frame.work.tile_size);  // nothing is binned again
+    CHECK(first.seconds.geometry > 0);
+    CHECK(between.seconds.geometry > 0);
+    CHECK(last.seconds.geometry == first.seconds.geometry);
+}
+
 TEST_CASE("two renderers of different scenes and sizes that draw alternately do not disturb each other") {
     const TriangleScene first = random_triangles(802, 30), second = random_triangles(803, 60, 0.4f);
     const RenderOptions large = options_sized(90, 70), small = options_sized(33, 41);
