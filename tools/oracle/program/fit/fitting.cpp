@@ -1,0 +1,98 @@
+// tools/oracle/program/fit/fitting.cpp - the order of the questions (fitting.h).
+#include "tools/oracle/program/fit/fitting.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strata::oracle::program {
+
+namespace {
+
+constexpr std::size_t proved_of_search = 8, most_told = 6;
+
+// The best edits on top of a program, proved.
+std::vector<Proof> search_and_prove(const Lists& lists, const Program& base, const PortRounding& rounding,
+                                    const Fitness& right) {
+    const FitSample sample{lists, base, rounding};
+    std::vector<Proof> proofs, others;
+    for (const Trial& trial : search(lists, base, rounding)) {
+        if (proofs.size() >= proved_of_search || trial.cost > 0.9 * sample.cost()) break;
+        Program program = base;
+        program.edits.push_back(trial.edit);
+        const PortRounding of_program = best_fitness(lists, program).rounding;
+        place_thresholds(lists, sample, program, of_program);
+        proofs.push_back(prove(lists, program, right));
+        if (proofs.back().cost > 0.5 * right.bits) continue;
+        for (const Program& twin : twins(sample, program))
+            if (measure(lists, twin, of_program).bits < 1.15 * proofs.back().fitness.bits + 60)
+                others.push_back(prove(lists, twin, right));
+    }
+    proofs.insert(proofs.end(), others.begin(), others.end());
+    return proofs;
+}
+
+// Those that cost about as little as the best, the plainest first. Another sentence is kept only if it predicts the
+// same picture.
+std::vector<Proof> alike(const Lists& lists, std::vector<Proof> proofs) {
+    if (proofs.empty()) return proofs;
+    const double best = std::ranges::min(proofs, {}, &Proof::cost).cost;
+    std::erase_if(proofs, [&](const Proof& p) { return p.cost > 1.15 * best + 60; });
+    std::ranges::stable_sort(proofs, {}, &Proof::rank);
+    std::vector<Proof> told;
+    for (Proof& proof : proofs) {
+        const bool is_told =
+            std::ranges::any_of(told, [&](const Proof& p) { return describe(p.program) == describe(proof.program); });
+        if (is_told || told.size() >= most_told) continue;
+        if (told.empty() || predict_alike(lists, told[0].program, proof.program)) told.push_back(std::move(proof));
+    }
+    return told;
+}
+
+// A second edit repairs what the first one does not describe: it is a mistake of its own only if few words say it.
+bool is_plain_pair(const Program& program) {
+    const Edit &first = program.edits.front(), &second = program.edits.back();
+    const auto is_round = [](double p) { return std::fabs(p * 100 - std::nearbyint(p * 100)) < 1e-6; };
+    return second.conditions.size() <= 1 && first.conditions.size() <= 1 &&
+           std::ranges::all_of(second.parameters, is_round) && !(first.entry->is_order && second.entry->is_order);
+}
+
+std::vector<Proof> only(std::vector<Proof> proofs, bool Proof::*is) {
+    std::erase_if(proofs, [&](const Proof& p) { return !(p.*is); });
+    return proofs;
+}
+
+}  // namespace
+
+Fitting fit(const Lists& lists) {
+    using State = Fitting::State;
+    Fitting fitting{.right = best_fitness(lists, {})};
+    const Fitness& right = fitting.right;
+    const bool may_be_right = is_narrow(right);
+    if (may_be_right && right.bits_per_covered() <= 1.2) {
+        fitting.state = State::right;
+        return fitting;
+    }
+    std::vector<Proof> proofs = search_and_prove(lists, {}, right.rounding, right);
+    std::vector<Proof> whole = only(proofs, &Proof::is_whole);
+    std::vector<Proof> part = only(proofs, &Proof::is_part);
+    if (may_be_right) {
+        std::erase_if(whole, [&](const Proof& p) { return p.cost > 0.12 * right.bits; });
+        part.clear();
+    } else if (whole.empty() && !part.empty()) {
+        const Proof& base = std::ranges::min(part, {}, &Proof::cost);
+        whole = only(search_and_prove(lists, base.program, base.fitness.rounding, right), &Proof::is_whole);
+        std::erase_if(whole, [](const Proof& p) { return !is_plain_pair(p.program); });
+    }
+    if (!whole.empty()) {
+        fitting.state = State::explained;
+        fitting.found = alike(lists, std::move(whole));
+    } else if (may_be_right) {
+        fitting.state = State::right;
+    } else if (!part.empty()) {
+        fitting.state = State::explained_in_part;
+        fitting.found = alike(lists, std::move(part));
+    }
+    return fitting;
+}
+
+}  // namespace strata::oracle::program

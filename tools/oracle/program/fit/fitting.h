@@ -1,0 +1,34 @@
+// tools/oracle/program/fit/fitting.h - judges a picture by fitting a program to it: is the right program narrowly
+// right, and if not, which edits explain what is seen?
+//
+// Rule     A picture is right if rounding alone explains it (score.h, is_narrow), cheaply, or if it does and no edit
+//          explains it at less than 0.12 of its cost. Otherwise one edit is searched and proved, then a second one on
+//          top of the best that explains a part. Explanations that predict the same picture are one, with several
+//          sentences, the plainest first.
+// Tests    tests/tools/oracle/program/found_test.cpp, right_test.cpp
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tools/oracle/program/fit/prove.h"
+
+namespace strata::oracle::program {
+
+struct Fitting {
+    enum class State : std::uint8_t { right, explained, explained_in_part, not_explained };
+
+    State state = State::not_explained;
+    Fitness right{};             // of the right program
+    std::vector<Proof> found{};  // that explain the picture, or a part of it; plainest first
+    [[nodiscard]] bool is_right() const noexcept { return state == State::right; }
+};
+
+[[nodiscard]] Fitting fit(const Lists& lists);
+
+// "all fragments of back faces have alpha times 0.5"
+[[nodiscard]] std::string describe(const Program& program);
+// One sentence about the picture, and a line for each further explanation.
+[[nodiscard]] std::string to_text(const Fitting& fitting);
+
+}  // namespace strata::oracle::program

@@ -1,0 +1,173 @@
+// tools/oracle/program/fit/prove.cpp - whole-picture proofs, and exact thresholds (prove.h).
+#include "tools/oracle/program/fit/prove.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strata::oracle::program {
+
+namespace {
+
+// The share of wrong pixels that are repaired, and of right ones that are broken.
+struct Moved {
+    double repaired = 0, broken = 0;
+};
+
+Moved moved(const Lists& lists, const Program& program, const Fitness& fitness, const Fitness& right) {
+    double wrong = 0, repaired = 0, good = 0, broken = 0;
+    const auto is_beyond = [&](const Program& p, const PortRounding& r, const ListPixel& pixel) {
+        const Color off = residual(value(p, pixel, r), pixel, lists.unit());
+        return std::ranges::any_of(off, [&](double v) { return std::fabs(v) > bound_at(pixel); });
+    };
+    for (const ListPixel& pixel : lists.pixels) {
+        const bool was_wrong = is_beyond({}, right.rounding, pixel),
+                   is_wrong = is_beyond(program, fitness.rounding, pixel);
+        (was_wrong ? wrong : good) += 1;
+        if (was_wrong && !is_wrong) repaired += 1;
+        if (!was_wrong && is_wrong) broken += 1;
+    }
+    return {wrong > 0 ? repaired / wrong : 0, good > 0 ? broken / good : 0};
+}
+
+}  // namespace
+
+Proof prove(const Lists& lists, const Program& program, const Fitness& right) {
+    Proof proof{.program = program, .fitness = best_fitness(lists, program)};
+    const Fitness& f = proof.fitness;
+    proof.cost = f.bits + price(program);
+    const double most = std::max(2.0, 0.002 * static_cast<double>(f.covered));
+    proof.is_whole = static_cast<double>(f.beyond) <= most && f.mean < 1 && f.slope < 0.35 &&
+                     f.bits_per_covered() < 1.5 && proof.cost < 0.6 * right.bits;
+    if (!proof.is_whole && proof.cost < 0.55 * right.bits) {
+        const Moved m = moved(lists, program, f, right);
+        proof.is_part = m.repaired > 0.6 && m.broken < 0.1;
+    }
+    return proof;
+}
+
+std::vector<Program> twins(const FitSample& sample, const Program& program) {
+    std::vector<Program> all;
+    const Edit& edit = program.edits.back();
+    const PortStep step = edit.entry->step;
+    const std::vector<char> mask = sample.mask(*edit.entry, edit.conditions);
+    const auto add = [&](std::vector<Condition> conditions) {
+        if (sample.mask(*edit.entry, conditions) != mask) return;
+        Program& twin = all.emplace_back(program);
+        twin.edits.back().conditions = std::move(conditions);
+    };
+    for (std::size_t i = 0; i < edit.conditions.size(); ++i) {
+        std::vector<Condition> conditions = edit.conditions;
+        for (const FragmentProperty& property : properties()) {
+            if (step != PortStep::list && !property.is_of_pixel) continue;
+            for (const Condition& other : conditions_of(property, sample.values(property, step))) {
+                conditions[i] = other;
+                if (conditions != edit.conditions) add(conditions);
+            }
+        }
+    }
+    return all;
+}
+
+bool predict_alike(const Lists& lists, const Program& a, const Program& b) {
+    std::size_t different = 0;
+    for (const ListPixel& pixel : lists.pixels) {
+        const Color of_a = value(a, pixel, {}), of_b = value(b, pixel, {});
+        for (std::size_t c = 0; c < 3; ++c)
+            if (std::fabs(of_a[c] - of_b[c]) > lists.unit()) {
+                ++different;
+                break;
+            }
+    }
+    return different <= std::max<std::size_t>(2, lists.pixels.size() / 1000);
+}
+
+namespace {
+
+// The threshold between `low` and `high` at which the pixels that it changes cost least.
+class Threshold {
+  public:
+    Threshold(const Lists& lists, Program& program, Condition& condition, const PortRounding& rounding)
+        : lists_{lists}, program_{program}, condition_{condition}, rounding_{rounding} {}
+
+    void place(double low, double high) {
+        gather(low, high);
+        if (values_.size() < 2) return;
+        std::size_t from = 0, to = values_.size() - 1;
+        std::size_t best = at(condition_.threshold);
+        double cost = cost_at(best);
+        for (std::size_t step = std::max<std::size_t>((to - from) / 16, 1);;
+             step = std::max<std::size_t>(step / 8, 1)) {
+            const std::size_t middle = best;
+            from = middle > 16 * step ? middle - 16 * step : 0;
+            to = std::min(values_.size() - 1, middle + 16 * step);
+            for (std::size_t i = from; i <= to; i += step) {
+                const double found = cost_at(i);
+                if (found < cost) {
+                    cost = found;
+                    best = i;
+                }
+            }
+            if (step == 1) break;
+        }
+        set(best);
+    }
+
+  private:
+    void gather(double low, double high) {
+        for (const ListPixel& pixel : lists_.pixels) {
+            bool is_near = false;
+            const std::size_t count = condition_.property->is_of_pixel ? 1 : pixel.fragments.size();
+            for (std::size_t k = 0; k < count; ++k) {
+                const double v = condition_.property->of(pixel, k);
+                if (v < low || v > high) continue;
+                values_.push_back(v);
+                is_near = true;
+            }
+            if (is_near) pixels_.push_back(&pixel);
+        }
+        std::ranges::sort(values_);
+        values_.erase(std::unique(values_.begin(), values_.end()), values_.end());
+    }
+    [[nodiscard]] std::size_t at(double threshold) const {
+        const auto found = std::ranges::lower_bound(values_, threshold);
+        return std::min(static_cast<std::size_t>(found - values_.begin()), values_.size() - 1);
+    }
+    void set(std::size_t i) {
+        condition_.threshold = condition_.property->kind == FragmentProperty::Kind::number && i > 0
+                                   ? shortest_between(values_[i - 1], values_[i])
+                                   : values_[i];
+    }
+    double cost_at(std::size_t i) {
+        set(i);
+        double bits = 0;
+        for (const ListPixel* pixel : pixels_)
+            bits += cost_of(value(program_, *pixel, rounding_), *pixel, lists_.unit());
+        return bits;
+    }
+
+    const Lists& lists_;
+    Program& program_;
+    Condition& condition_;
+    const PortRounding& rounding_;
+    std::vector<double> values_{};
+    std::vector<const ListPixel*> pixels_{};
+};
+
+}  // namespace
+
+void place_thresholds(const Lists& lists, const FitSample& sample, Program& program, const PortRounding& rounding) {
+    Edit& edit = program.edits.back();
+    for (Condition& condition : edit.conditions) {
+        if (condition.is == Condition::Is::equal || condition.property->kind == FragmentProperty::Kind::flag) continue;
+        std::vector<double> values = sample.values(*condition.property, edit.entry->step);
+        std::ranges::sort(values);
+        values.erase(std::unique(values.begin(), values.end()), values.end());
+        const auto at = std::ranges::lower_bound(values, condition.threshold) - values.begin();
+        const auto value_at = [&](std::ptrdiff_t i) {
+            return values[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, std::ssize(values) - 1))];
+        };
+        Threshold{lists, program, condition, rounding}.place(value_at(at - 2), value_at(at + 1));
+    }
+}
+
+}  // namespace strata::oracle::program

@@ -1,0 +1,34 @@
+// tools/oracle/program/fit/prove.h - proves a program on the whole picture.
+//
+// Rule     A program explains a picture if, under one emulated rounding, at most 2 pixels or 0.2 % of the covered ones
+//          are beyond what rounding explains, the residual has no mean and no slope, and it costs less than 1.5 bits
+//          per covered pixel and 0.6 of what the right program costs. It explains a part if it repairs more than 60 %
+//          of the wrong pixels, breaks fewer than 10 % of the right ones and costs less than 0.55.
+// Tests    tests/tools/oracle/program/found_test.cpp
+#pragma once
+#include <algorithm>
+
+#include "tools/oracle/program/fit/search.h"
+
+namespace strata::oracle::program {
+
+struct Proof {
+    Program program{};
+    Fitness fitness{};
+    bool is_whole = false, is_part = false;
+    double cost = 0;  // bits with the price of the words
+    // The order in which equal explanations are told: plain words first, unless they leave more pixels wrong.
+    [[nodiscard]] double rank() const {
+        return price(program) + std::min(2.0 * static_cast<double>(fitness.beyond), 5.0);
+    }
+};
+
+[[nodiscard]] Proof prove(const Lists& lists, const Program& program, const Fitness& right);
+// Moves the thresholds of a program's last edit to where the whole picture costs least.
+void place_thresholds(const Lists& lists, const FitSample& sample, Program& program, const PortRounding& rounding);
+// Programs whose last edit has other conditions that select the same fragments of the sample.
+[[nodiscard]] std::vector<Program> twins(const FitSample& sample, const Program& program);
+// True if both predict the same picture, to a code of the candidate.
+[[nodiscard]] bool predict_alike(const Lists& lists, const Program& a, const Program& b);
+
+}  // namespace strata::oracle::program

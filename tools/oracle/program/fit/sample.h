@@ -1,0 +1,90 @@
+// tools/oracle/program/fit/sample.h - some wrong and some right pixels, on which a change of a program is tried in
+// microseconds.
+//
+// Rule     A trial's prediction is emulated(base) + exact(trial) - exact(base): rounding cancels wherever the trial
+//          changes nothing. Where it changes much that adds two roundings, so that exact(trial) alone is then scored,
+//          too, and the lesser cost counts. Pixels are weighted so that the sample stands for the picture.
+// Numbers  Covered pixels that are wrong and right, and pixels without layers that are, at even distances.
+// Tests    tests/tools/oracle/program/found_test.cpp
+#pragma once
+#include <limits>
+#include <vector>
+
+#include "tools/oracle/program/fit/score.h"
+
+namespace strata::oracle::program {
+
+struct SamplePixel {
+    const ListPixel* pixel = nullptr;
+    double weight = 1;
+    bool is_wrong = false;
+    std::size_t first = 0;  // of its fragments in the sample
+    Color emulated{}, exact{};
+    double cost = 0, exact_cost = 0;         // of these
+    double cost_from_here = 0;               // weighted, of this pixel and the following ones
+    std::vector<std::vector<char>> masks{};  // of the base program's edits
+};
+
+// The most pixels of each class.
+struct SampleSize {
+    std::size_t wrong = 120, right = 100, wrong_empty = 20, right_empty = 20;
+};
+inline constexpr SampleSize small_sample{60, 40, 8, 8};
+
+// What a trial must reach to be of use: otherwise its score is cut short.
+struct WantedScore {
+    double bits = std::numeric_limits<double>::infinity();  // at most
+    double saved = 0;                                       // or at least
+};
+
+// The cost of a trial, and what it saves at the pixels where it is better: a condition on pixels can save that much.
+struct Score {
+    double bits = 0, saved = 0;
+};
+
+// A rounding with the costs of the base program.
+struct Emulation {
+    PortRounding rounding{};
+    std::vector<double> base{};  // weighted, per pixel
+};
+
+class FitSample {
+  public:
+    FitSample(const Lists& lists, const Program& base, const PortRounding& rounding, const SampleSize& size = {});
+
+    [[nodiscard]] const std::vector<SamplePixel>& pixels() const noexcept { return pixels_; }
+    [[nodiscard]] std::size_t fragments() const noexcept { return fragments_; }
+    [[nodiscard]] double unit() const noexcept { return unit_; }
+    [[nodiscard]] const Program& base() const noexcept { return base_; }
+    [[nodiscard]] double cost() const noexcept { return cost_; }  // of the base program
+    [[nodiscard]] std::size_t wrong() const noexcept { return wrong_; }
+
+    // The values of a property at all fragments, or for edits of other steps than the list at all pixels.
+    [[nodiscard]] const std::vector<double>& values(const FragmentProperty& property, PortStep step) const;
+
+    // The exact colour with one more edit; `mask`: of the pixel's fragments, or one element.
+    [[nodiscard]] Color exact(const SamplePixel& pixel, const StepEntry& entry, Parameters p,
+                              std::span<const char> mask) const;
+    // The score with one more edit; `mask`: of all fragments for edits of lists, of all pixels for others.
+    [[nodiscard]] Score score(const StepEntry& entry, Parameters p, std::span<const char> mask,
+                              const WantedScore& wanted = {}) const;
+    [[nodiscard]] Score score(const Edit& edit) const;
+    // The same by emulation of a port's rounding: slower, and right where an edit changes most.
+    [[nodiscard]] Emulation emulation(const PortRounding& rounding) const;
+    [[nodiscard]] double emulated(const Edit& edit, const Emulation& emulation) const;
+    // The mask of an edit with these conditions.
+    [[nodiscard]] std::vector<char> mask(const StepEntry& entry, std::span<const Condition> conditions) const;
+
+  private:
+    void choose(const Lists& lists, const PortRounding& rounding, const SampleSize& size);
+    [[nodiscard]] Color colored(const SamplePixel& pixel, const Applied& edit, const PortRounding& rounding) const;
+    [[nodiscard]] std::span<const char> mask_at(std::size_t i, const StepEntry& entry, std::span<const char> all) const;
+
+    Program base_;
+    double unit_ = 1, cost_ = 0;
+    std::size_t fragments_ = 0, wrong_ = 0;
+    std::vector<SamplePixel> pixels_{};
+    std::vector<std::vector<double>> of_fragments_{}, of_pixels_{};  // by property
+};
+
+}  // namespace strata::oracle::program

@@ -1,0 +1,218 @@
+// tools/oracle/program/fit/search.cpp - the order of the search (search.h).
+#include "tools/oracle/program/fit/search.h"
+
+#include <algorithm>
+#include <set>
+
+#include "tools/oracle/program/steps/entries.h"
+
+namespace strata::oracle::program {
+
+void Beam::add(Trial trial) {
+    if (std::ranges::find(trials_, trial.edit, &Trial::edit) != trials_.end()) return;
+    if (trial.cost >= limit()) return;
+    const auto at = std::ranges::upper_bound(trials_, trial.cost, {}, &Trial::cost);
+    const StepEntry* const entry = trial.edit.entry;
+    trials_.insert(at, std::move(trial));
+    std::size_t of_entry = 0;
+    for (auto t = trials_.begin(); t != trials_.end(); ++t)
+        if (t->edit.entry == entry && ++of_entry > most_of_entry_) {
+            trials_.erase(t);
+            break;
+        }
+    if (trials_.size() > most_) trials_.pop_back();
+}
+
+namespace {
+
+double price_of(const Edit& edit) { return price(Program{{edit}}); }
+
+enum class Among { all, pixels };
+
+// A condition with the fragments, or pixels, of the sample that meet it.
+struct ConditionMask {
+    Condition condition{};
+    std::vector<char> mask{};
+};
+
+class Search {
+  public:
+    explicit Search(const FitSample& sample) : sample_{sample} {
+        for (const FragmentProperty& property : properties()) by_price_.push_back(&property);
+        std::ranges::stable_sort(by_price_, {}, &FragmentProperty::price);
+    }
+
+    std::vector<Trial> run() {
+        solved_ = solve(sample_);
+        for (Solved& s : solved_) {
+            const Edit edit{s.variation.entry, s.variation.parameters, {}};
+            const Score score = sample_.score(edit);
+            s.saved = score.saved;
+            add(edit, score);
+        }
+        fit_all();
+        learn_from_solved();
+        try_stumps();
+        for (const Trial& trial : std::vector<Trial>{saving_.trials()}) try_conditions(trial.edit, Among::pixels);
+        refine(6);
+        join(6);
+        refine(6);
+        join(3);
+        refine(8);
+        return best_.trials();
+    }
+
+  private:
+    static constexpr std::uint64_t most_work = 200'000'000;  // layers composited in one stage
+
+    void add(const Edit& edit, const Score& score) {
+        best_.add({edit, score.bits + price_of(edit)});
+        saving_.add({edit, sample_.cost() - score.saved + price_of(edit)});
+    }
+    void add(const Edit& edit) { add(edit, sample_.score(edit)); }
+
+    // Every continuous parameter without a condition.
+    void fit_all() {
+        for (const StepEntry* entry : entries()) {
+            if (!entry->is_continuous) continue;
+            Beam candidates{1, 1};
+            for (const double p : entry->parameters) {
+                const Edit edit{entry, {p}, {}};
+                candidates.add({edit, sample_.score(edit).bits + price_of(edit)});
+            }
+            Trial trial = candidates.trials()[0];
+            fit_parameter(Scorer{sample_}, trial);
+            best_.add(std::move(trial));
+        }
+    }
+
+    void learn_from_solved() {
+        const std::size_t few = std::max<std::size_t>(3, sample_.wrong() / 50);
+        for (const Solved& s : solved_)
+            if (s.hits.size() >= few) add({s.variation.entry, s.variation.parameters, learn(sample_, s)});
+    }
+
+    // The conditions of one more that select other fragments, or other pixels, of those given. Of conditions that
+    // select the same the cheapest is kept.
+    [[nodiscard]] std::vector<ConditionMask> choices(const std::vector<char>& given, PortStep step, Among among) const {
+        std::vector<ConditionMask> all;
+        std::vector<char> mask(given.size());
+        std::set<std::vector<char>> known{given};
+        for (const FragmentProperty* property : by_price_) {
+            if ((step != PortStep::list || among == Among::pixels) && !property->is_of_pixel) continue;
+            const std::vector<double>& values = sample_.values(*property, step);
+            std::vector<double> here;
+            for (std::size_t i = 0; i < given.size(); ++i)
+                if (given[i] != 0) here.push_back(values[i]);
+            for (const Condition& condition : conditions_of(*property, here)) {
+                for (std::size_t i = 0; i < mask.size(); ++i)
+                    mask[i] = given[i] != 0 && condition.holds(values[i]) ? 1 : 0;
+                if (known.insert(mask).second) all.push_back({condition, mask});
+            }
+        }
+        return all;
+    }
+
+    void try_choices(const Edit& edit, const std::vector<ConditionMask>& all) {
+        for (const ConditionMask& choice : all) {
+            if (work_ > most_work) return;
+            work_ += sample_.fragments();
+            Edit trial = edit;
+            trial.conditions.push_back(choice.condition);
+            const WantedScore wanted{best_.limit(), sample_.cost() - saving_.limit()};
+            add(trial, sample_.score(*edit.entry, edit.parameters, choice.mask, wanted));
+        }
+    }
+
+    void try_conditions(const Edit& edit, Among among) {
+        const std::vector<char> given = sample_.mask(*edit.entry, edit.conditions);
+        try_choices(edit, choices(given, edit.entry->step, among));
+    }
+
+    // Of each entry the variations that hit most fragments, or save most.
+    [[nodiscard]] std::vector<Variation> promising() const {
+        constexpr std::size_t of_entry = 2;
+        struct Promise {
+            Variation variation;
+            std::size_t hits;
+            double saved;
+        };
+        std::vector<Variation> chosen;
+        for (const StepEntry* entry : entries()) {
+            std::vector<Promise> all;
+            for (const Solved& s : solved_)
+                if (s.variation.entry == entry) all.push_back({s.variation, s.hits.size(), s.saved});
+            std::ranges::stable_sort(all, std::ranges::greater{}, [](const Promise& p) {
+                return std::pair{p.hits, p.saved};
+            });
+            for (std::size_t i = 0; i < std::min(all.size(), of_entry); ++i) chosen.push_back(all[i].variation);
+        }
+        return chosen;
+    }
+
+    // Entries with every condition.
+    void try_stumps() {
+        const std::vector<ConditionMask> of_fragments =
+            choices(std::vector<char>(sample_.fragments(), 1), PortStep::list, Among::all);
+        const std::vector<ConditionMask> of_pixels =
+            choices(std::vector<char>(sample_.pixels().size(), 1), PortStep::finish, Among::pixels);
+        for (const Variation& v : promising())
+            try_choices({v.entry, v.parameters, {}}, v.entry->step == PortStep::list ? of_fragments : of_pixels);
+    }
+
+    void refine(std::size_t count) {
+        std::vector<Trial> best{best_.trials()};
+        best.resize(std::min(best.size(), count));
+        for (Trial& trial : best) {
+            walk_thresholds(Scorer{sample_}, trial);
+            fit_parameter(Scorer{sample_}, trial);
+            best_.add(std::move(trial));
+        }
+    }
+
+    // One more condition for the best.
+    void join(std::size_t count) {
+        std::vector<Trial> best{best_.trials()};
+        best.resize(std::min(best.size(), count));
+        for (const Trial& trial : best)
+            if (trial.edit.conditions.size() < 3 && trial.cost > 0.002 * sample_.cost()) {
+                work_ = 0;
+                try_conditions(trial.edit, Among::all);
+            }
+    }
+
+    const FitSample& sample_;
+    std::vector<const FragmentProperty*> by_price_{};
+    std::vector<Solved> solved_{};
+    Beam best_{32, 4}, saving_{8, 2};
+    std::uint64_t work_ = 0;
+};
+
+}  // namespace
+
+std::vector<Trial> search(const Lists& lists, const Program& base, const PortRounding& rounding) {
+    const FitSample few{lists, base, rounding, small_sample}, many{lists, base, rounding};
+    std::vector<Emulation> emulations;
+    for (const PortRounding& r : roundings(lists.format)) emulations.push_back(many.emulation(r));
+    std::vector<Trial> trials = Search{few}.run();
+    Beam beam{24, 4};
+    for (Trial& trial : trials) {
+        trial.cost = std::numeric_limits<double>::infinity();
+        const Emulation* closest = nullptr;
+        for (const Emulation& emulation : emulations)
+            if (const double cost = Scorer{many, emulation}(trial.edit); cost < trial.cost) {
+                trial.cost = cost;
+                closest = &emulation;
+            }
+        if (trial.cost > 2 * beam.limit_of(8)) continue;
+        const Scorer scorer{many, *closest};
+        if (trial.cost < beam.limit_of(3) && trial.cost > 0.01 * many.cost()) exchange_conditions(scorer, trial);
+        walk_thresholds(scorer, trial);
+        fit_parameter(scorer, trial);
+        drop_conditions(scorer, trial);
+        beam.add(std::move(trial));
+    }
+    return beam.trials();
+}
+
+}  // namespace strata::oracle::program

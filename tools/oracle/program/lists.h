@@ -1,0 +1,70 @@
+// tools/oracle/program/lists.h - what a port composites: the fragments of every pixel, near to far, what is behind
+// them, and the colour that the candidate has there.
+//
+// Rule     A pixel's fragments are the visible ones by depth code. The order of equal codes is not part of the
+//          question: it is reversed where only that is right.
+// Numbers  `unit` is the step in which residuals are counted: one code of the candidate's format, 2^-11 of halves,
+//          2^-18 of binary32.
+// Tests    tests/tools/oracle/program/parts_test.cpp
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tools/oracle/program/rounding.h"
+
+namespace strata::oracle::verdict {
+class SceneFragments;
+class Colors;
+}  // namespace strata::oracle::verdict
+
+namespace strata::oracle::program {
+
+using Color = std::array<double, 3>;
+
+struct ListFragment {
+    Color color{};  // not premultiplied
+    double alpha = 0;
+    double depth = 0;              // in [0, 1], less is nearer
+    std::uint32_t code = 0;        // stored depth
+    std::uint32_t submission = 0;  // its rank among the pixel's fragments in submission order
+    double triangle_depth = 0;     // mean of its triangle in the picture
+    std::uint32_t primitive = 0, instance = 0, material = 0;
+    bool is_front_facing = true;
+};
+
+struct ListPixel {
+    int x = 0, y = 0;
+    std::size_t first = 0;  // fragments of all pixels before it
+    std::span<const ListFragment> fragments{};
+    Color behind{};  // the opaque surface, or the background
+    bool has_opaque = false;
+    Color seen{};  // the candidate's
+};
+
+// Row by row from the top. Pixels refer to `fragments`, so that lists move and are not copied.
+struct Lists {
+    Lists() = default;
+    Lists(Lists&&) = default;
+    Lists& operator=(Lists&&) = default;
+    Lists(const Lists&) = delete;
+    Lists& operator=(const Lists&) = delete;
+    ~Lists() = default;
+
+    int width = 0, height = 0;
+    PortFormat format = PortFormat::unorm8;  // of the candidate
+    std::vector<ListFragment> fragments{};
+    std::vector<ListPixel> pixels{};
+    [[nodiscard]] double unit() const noexcept { return step_of(format); }
+};
+
+// The lists of a scene whose fragments are kept.
+[[nodiscard]] Lists lists_of(const verdict::SceneFragments& scene, const verdict::Colors& candidate);
+
+// Sets the spans of the pixels, whose `first` are known, and the triangles' depths, and chooses the order of equal
+// codes.
+void complete(Lists& lists);
+
+}  // namespace strata::oracle::program

@@ -1,0 +1,128 @@
+// tools/oracle/program/program.cpp - runs a program on the fragments of a pixel (program.h).
+#include "tools/oracle/program/program.h"
+
+#include <algorithm>
+
+namespace strata::oracle::program {
+
+namespace {
+
+double color_of(const PortLayer& layer, std::size_t c, const PortRounding& r) {
+    if (r.layers == PortFormat::exact) return layer.color[c] * layer.alpha;
+    if (r.premultiplies) return stored(r.layers, layer.color[c] * layer.alpha, r.truncates);
+    return stored(r.layers, layer.color[c]) * stored(r.layers, layer.alpha);
+}
+
+double cover_of(const PortLayer& layer, const PortRounding& r) { return stored(r.layers, layer.cover); }
+
+// A layer over `below`.
+void blend_over(const PortLayer& layer, Color& below, const PortRounding& r) {
+    const double rest = 1 - cover_of(layer, r);
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double own = color_of(layer, c, r), other = below[c] * rest;
+        below[c] = r.splits ? r.kept(r.kept(own) + r.kept(other)) : r.kept(own + other);
+    }
+}
+
+// A layer under what is accumulated with this transmittance.
+void blend_under(const PortLayer& layer, Color& sum, double& through, const PortRounding& r) {
+    for (std::size_t c = 0; c < 3; ++c) sum[c] = r.kept(sum[c] + through * color_of(layer, c, r));
+    if (r.form == BlendForm::under_alpha)
+        through = 1 - r.weighed((1 - through) + through * cover_of(layer, r));
+    else
+        through = r.weighed(through * (1 - cover_of(layer, r)));
+}
+
+Color kept(const Color& color, const PortRounding& r) { return {r.kept(color[0]), r.kept(color[1]), r.kept(color[2])}; }
+
+}  // namespace
+
+Color blended(std::span<const PortLayer> layers, const Color& behind, const PortRounding& r) {
+    if (r.form == BlendForm::once) {
+        Color color = behind;
+        for (std::size_t i = layers.size(); i-- > 0;)
+            for (std::size_t c = 0; c < 3; ++c)
+                color[c] = layers[i].color[c] * layers[i].alpha + color[c] * (1 - layers[i].cover);
+        return color;
+    }
+    std::size_t near = layers.size();
+    if (r.form == BlendForm::over) near = 0;
+    if (r.form == BlendForm::both_ends) near = (layers.size() + 1) / 2;
+    Color below = kept(behind, r), sum{};
+    for (std::size_t i = layers.size(); i-- > near;) blend_over(layers[i], below, r);
+    if (near == 0) return below;
+    double through = 1;
+    for (std::size_t i = 0; i < near; ++i) blend_under(layers[i], sum, through, r);
+    for (std::size_t c = 0; c < 3; ++c) sum[c] = r.kept(sum[c] + through * below[c]);
+    return sum;
+}
+
+Color run(std::span<const Applied> edits, const ListPixel& pixel, const PortRounding& rounding) {
+    thread_local PortLayers layers;
+    layers.clear();
+    for (std::uint32_t k = 0; k < pixel.fragments.size(); ++k) {
+        const ListFragment& f = pixel.fragments[k];
+        layers.push_back({.color = f.color, .alpha = f.alpha, .cover = f.alpha, .depth = f.depth, .fragment = k});
+    }
+    Color behind = pixel.behind;
+    const Applied* fold = nullptr;
+    for (const Applied& edit : edits) {
+        const bool is_here = edit.mask.size() > 0 && edit.mask[0] != 0;
+        switch (edit.entry->step) {
+            case PortStep::list: edit.entry->edit(layers, {pixel, edit.mask}, edit.parameters); break;
+            case PortStep::background:
+                if (is_here && !pixel.has_opaque) behind = edit.entry->recolor(behind, edit.parameters);
+                break;
+            case PortStep::fold:
+                if (is_here) fold = &edit;
+                break;
+            case PortStep::finish: break;
+        }
+    }
+    Color color = fold != nullptr ? fold->entry->fold(layers, behind, rounding, fold->parameters)
+                                  : blended(layers, behind, rounding);
+    for (const Applied& edit : edits)
+        if (edit.entry->step == PortStep::finish && edit.mask[0] != 0)
+            color = edit.entry->recolor(color, edit.parameters);
+    for (double& c : color) c = stored(rounding.result, c, rounding.truncates);
+    return color;
+}
+
+void select(const Edit& edit, const ListPixel& pixel, std::vector<char>& mask) {
+    mask.assign(edit.entry->step == PortStep::list ? pixel.fragments.size() : 1, 1);
+    for (std::size_t k = 0; k < mask.size(); ++k)
+        for (const Condition& condition : edit.conditions)
+            if (mask[k] != 0 && !condition.holds(pixel, k)) mask[k] = 0;
+}
+
+Color value(const Program& program, const ListPixel& pixel, const PortRounding& rounding) {
+    thread_local std::vector<std::vector<char>> masks;
+    thread_local std::vector<Applied> applied;
+    applied.clear();
+    if (masks.size() < program.edits.size()) masks.resize(program.edits.size());
+    for (std::size_t i = 0; i < program.edits.size(); ++i) {
+        const Edit& edit = program.edits[i];
+        select(edit, pixel, masks[i]);
+        applied.push_back({edit.entry, edit.parameters, masks[i]});
+    }
+    return run(applied, pixel, rounding);
+}
+
+bool changes(const Program& program, const ListPixel& pixel) {
+    std::vector<char> mask;
+    return std::ranges::any_of(program.edits, [&](const Edit& edit) {
+        select(edit, pixel, mask);
+        return std::ranges::find(mask, 1) != mask.end();
+    });
+}
+
+double price(const Program& program) {
+    double bits = 0;
+    for (const Edit& edit : program.edits) {
+        bits += edit.entry->price + (edit.entry->parameters.empty() ? 0 : edit.entry->is_continuous ? 8.0 : 4.0);
+        for (const Condition& c : edit.conditions) bits += c.property->price;
+    }
+    return bits;
+}
+
+}  // namespace strata::oracle::program

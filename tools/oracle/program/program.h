@@ -1,0 +1,88 @@
+// tools/oracle/program/program.h - a port as a small program: fragments -> layers -> fold -> finish -> pixel.
+//
+// Rule     The right program has no edits: layers are the fragments near to far, blended over what is behind them. An
+//          edit is an entry of a table (steps/) with a parameter, applied to the fragments or pixels that meet all its
+//          conditions. Edits of lists come first, in their order; then the background's, one fold, and what is done to
+//          the finished colour.
+// Tests    tests/tools/oracle/program/parts_test.cpp, found_test.cpp: pictures composited by plain code of the tests
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/oracle/program/lists.h"
+#include "tools/oracle/program/properties.h"
+#include "tools/oracle/program/rounding.h"
+
+namespace strata::oracle::program {
+
+// Adds `alpha` times the colour, and lets 1 - `cover` of what is behind through: right layers have one value for both.
+struct PortLayer {
+    Color color{};
+    double alpha = 0, cover = 0;
+    double depth = 0;
+    std::uint32_t fragment = 0;  // of its pixel
+};
+using PortLayers = std::vector<PortLayer>;
+
+// The fragments of a pixel that an edit changes.
+struct SelectedFragments {
+    const ListPixel& pixel;
+    std::span<const char> mask{};
+    [[nodiscard]] bool has(const PortLayer& layer) const { return mask[layer.fragment] != 0; }
+    [[nodiscard]] const ListFragment& of(const PortLayer& layer) const { return pixel.fragments[layer.fragment]; }
+};
+
+using Parameters = std::span<const double>;
+
+enum class PortStep : std::uint8_t { list, background, fold, finish };
+
+// A way in which a step is done. Of the functions there is the one of its step.
+struct StepEntry {
+    PortStep step = PortStep::list;
+    std::string_view words;                // what happens to the fragments or colours; {} is the parameter
+    double price = 4;                      // bits
+    std::span<const double> parameters{};  // candidates of the parameter; empty: none
+    bool is_continuous = false;            // the parameter is fitted
+    bool is_order = false;                 // acts on the selected fragments together
+    void (*edit)(PortLayers& layers, const SelectedFragments& selection, Parameters parameters) = nullptr;
+    Color (*recolor)(const Color& color, Parameters parameters) = nullptr;
+    Color (*fold)(std::span<const PortLayer> layers, const Color& behind, const PortRounding& rounding,
+                  Parameters p) = nullptr;
+};
+
+struct Edit {
+    const StepEntry* entry = nullptr;
+    std::vector<double> parameters{};
+    std::vector<Condition> conditions{};
+    friend bool operator==(const Edit&, const Edit&) = default;
+};
+
+struct Program {
+    std::vector<Edit> edits{};
+    friend bool operator==(const Program&, const Program&) = default;
+};
+
+// An edit with the fragments that it changes; of edits of other steps `mask` has one element.
+struct Applied {
+    const StepEntry* entry = nullptr;
+    Parameters parameters{};
+    std::span<const char> mask{};
+};
+
+// The pixel's colour. Without a rounding it is exact.
+[[nodiscard]] Color run(std::span<const Applied> edits, const ListPixel& pixel, const PortRounding& rounding);
+[[nodiscard]] Color value(const Program& program, const ListPixel& pixel, const PortRounding& rounding);
+
+// True for the fragments, or the pixel, that an edit changes.
+void select(const Edit& edit, const ListPixel& pixel, std::vector<char>& mask);
+[[nodiscard]] bool changes(const Program& program, const ListPixel& pixel);
+
+// The right fold, with the form of the rounding.
+[[nodiscard]] Color blended(std::span<const PortLayer> layers, const Color& behind, const PortRounding& rounding);
+
+[[nodiscard]] double price(const Program& program);
+
+}  // namespace strata::oracle::program

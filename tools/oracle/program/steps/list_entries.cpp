@@ -1,0 +1,97 @@
+// tools/oracle/program/steps/list_entries.cpp - mistakes with a pixel's list: layers left out, doubled, exchanged,
+// moved, merged, or with another layer's colour or alpha (entries.h).
+#include <algorithm>
+#include <utility>
+
+#include "tools/oracle/program/steps/entries.h"
+
+namespace strata::oracle::program {
+
+namespace {
+
+void leave_out(PortLayers& layers, const SelectedFragments& s, Parameters) {
+    std::erase_if(layers, [&](const PortLayer& layer) { return s.has(layer); });
+}
+
+void blend_twice(PortLayers& layers, const SelectedFragments& s, Parameters) {
+    for (std::size_t i = 0; i < layers.size(); ++i)
+        if (s.has(layers[i])) {
+            const PortLayer copy = layers[i];
+            layers.insert(layers.begin() + static_cast<std::ptrdiff_t>(i++), copy);
+        }
+}
+
+void exchange_with_next(PortLayers& layers, const SelectedFragments& s, Parameters) {
+    for (std::size_t i = 0; i + 1 < layers.size(); ++i)
+        if (s.has(layers[i])) {
+            std::swap(layers[i], layers[i + 1]);
+            ++i;
+        }
+}
+
+void move_to_front(PortLayers& layers, const SelectedFragments& s, Parameters) {
+    std::ranges::stable_partition(layers, [&](const PortLayer& layer) { return s.has(layer); });
+}
+
+void move_to_back(PortLayers& layers, const SelectedFragments& s, Parameters) {
+    std::ranges::stable_partition(layers, [&](const PortLayer& layer) { return !s.has(layer); });
+}
+
+// Where another layer is: the one before, the one behind, or the nearest.
+enum class From { before, behind, nearest };
+enum class What { all, color, alpha };
+
+template <From from, What what>
+void take(PortLayers& layers, const SelectedFragments& s, Parameters) {
+    const PortLayers given = layers;
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        if (!s.has(layers[i])) continue;
+        const std::size_t j = from == From::before ? i - 1 : from == From::behind ? i + 1 : 0;
+        if (j >= given.size()) continue;
+        if (what != What::alpha) layers[i].color = given[j].color;
+        if (what != What::color) {
+            layers[i].alpha = given[j].alpha;
+            layers[i].cover = given[j].cover;
+        }
+    }
+}
+
+// The layer and the one before it become one with the MAX of each channel of their premultiplied colours.
+void merge_with_before(PortLayers& layers, const SelectedFragments& s, Parameters) {
+    for (std::size_t i = layers.size(); i-- > 1;) {
+        if (!s.has(layers[i])) continue;
+        PortLayer& before = layers[i - 1];
+        const double alpha = std::max(before.alpha, layers[i].alpha);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double sum = std::max(before.color[c] * before.alpha, layers[i].color[c] * layers[i].alpha);
+            before.color[c] = alpha > 0 ? sum / alpha : 0;
+        }
+        before.alpha = alpha;
+        before.cover = std::max(before.cover, layers[i].cover);
+        layers.erase(layers.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+}
+
+const StepEntry table[] = {
+    {.words = "are left out", .price = 2, .edit = leave_out},
+    {.words = "are blended twice", .price = 3, .edit = blend_twice},
+    {.words = "are exchanged with the next ones behind", .price = 4, .edit = exchange_with_next},
+    {.words = "are composited in front of all others", .price = 4, .edit = move_to_front},
+    {.words = "are composited behind all others", .price = 4, .edit = move_to_back},
+    {.words = "are replaced by the ones before", .price = 5, .edit = take<From::before, What::all>},
+    {.words = "are replaced by the ones behind", .price = 5, .edit = take<From::behind, What::all>},
+    {.words = "are replaced by the nearest", .price = 5, .edit = take<From::nearest, What::all>},
+    {.words = "have the colour of the ones before", .price = 5, .edit = take<From::before, What::color>},
+    {.words = "have the colour of the ones behind", .price = 5, .edit = take<From::behind, What::color>},
+    {.words = "have the colour of the nearest", .price = 5, .edit = take<From::nearest, What::color>},
+    {.words = "have the alpha of the ones before", .price = 5, .edit = take<From::before, What::alpha>},
+    {.words = "have the alpha of the ones behind", .price = 5, .edit = take<From::behind, What::alpha>},
+    {.words = "have the alpha of the nearest", .price = 5, .edit = take<From::nearest, What::alpha>},
+    {.words = "are merged with the ones before by MAX", .price = 6, .edit = merge_with_before},
+};
+
+}  // namespace
+
+std::span<const StepEntry> list_entries() { return table; }
+
+}  // namespace strata::oracle::program
