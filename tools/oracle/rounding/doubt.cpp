@@ -78,22 +78,24 @@ struct Residuals {
     std::uint64_t pixels = 0, beyond = 0;  // beyond: those that need more codes than their layers ask for
 };
 
-// A sampled pixel with the structure that the right account found there.
+// A sampled pixel with the structure that the account found there.
 struct Structured {
     Stack stack{};
     std::array<double, 4> value{};
 };
 
-std::vector<Structured> structures(const SceneFragments& scene, const Colors& candidate, const CheckedAccount& right) {
+std::vector<Structured> structures(const SceneFragments& scene, const Colors& candidate,
+                                   const CheckedAccount& checked) {
     constexpr std::size_t most_sampled = 16384;
-    const Compositor compositor{right.account.hypothesis};
+    const Compositor compositor{checked.account.hypothesis};
+    const std::vector<Rule>& rules = checked.account.rules;
     StackMaker maker{scene.setting()};
     std::vector<Structured> all;
     const Sample sample = sampled(scene, candidate, most_sampled);
     for (const SampledPixel& pixel : sample.pixels()) {
-        const MatchingTies way = matching_ties(compositor, {}, pixel.list, pixel.value, maker);
+        const MatchingTies way = matching_ties(compositor, rules, pixel.list, pixel.value, maker);
         if (way.mask == 0 || way.at_edge) continue;
-        const Stack& stack = maker.with({}, way.list, way.ties);
+        const Stack& stack = maker.with(rules, way.list, way.ties);
         if (!stack.layers.empty()) all.push_back({stack, pixel.value});
     }
     return all;
@@ -154,10 +156,12 @@ std::string more_than_right(double needed) {
     return fmt::format("{}, where a right port needs at most {:.0f}", codes(needed), most_codes_of_right);
 }
 
+// Channels of different pixels that a direction is asked of.
+constexpr std::size_t fewest = 64;
+
 // Whether the differences of a channel have a direction, which rounding has not; "" if not.
 std::string direction_of(const std::vector<Residual>& channel, std::string_view name, double most_mean) {
     constexpr double most_slope = 0.45;
-    constexpr std::size_t fewest = 64;
     if (channel.size() < fewest) return "";
     const auto exceeds = [](double value, double limit, double error) { return std::fabs(value) > limit + 3 * error; };
     const Fit any = fit_of(channel, Property::transmittance);  // the mean and its error are those of every property
@@ -173,15 +177,22 @@ std::string direction_of(const std::vector<Residual>& channel, std::string_view 
 
 }  // namespace
 
-std::string doubt_of(const SceneFragments& scene, const Colors& candidate, const CheckedAccount& right,
+std::string doubt_of(const SceneFragments& scene, const Colors& candidate, const CheckedAccount& checked,
                      const Families& definite) {
     constexpr double most = most_codes_of_right, narrow = 1.5;
-    if (right.needed <= narrow) return "";
-    if (has_codes(right.account.hypothesis.result.storage) && right.observed > most + 0.5)
-        return more_than_right(right.observed);
-    const std::vector<Structured> all = structures(scene, candidate, right);
+    const bool is_of_codes = has_codes(checked.account.hypothesis.result.storage);
+    // Off by 4 codes where more than 5 are possible: without many different pixels that is no evidence of rounding.
+    const bool is_wide = is_of_codes && checked.observed > most - 1.5 && checked.possible > most + 0.5;
+    if (checked.needed <= narrow && !is_wide) return "";
+    if (is_of_codes && checked.observed > most + 0.5) return more_than_right(checked.observed);
+    const std::vector<Structured> all = structures(scene, candidate, checked);
     const Hypothesis hypothesis = nearest(definite, all);
     const Residuals found = residuals(hypothesis, all);
+    if (is_wide && std::ranges::all_of(found.channels, [](const auto& c) { return c.size() < fewest; }))
+        return fmt::format("{}, at {} different pixels, which are too few to tell rounding from a mistake",
+                           codes(checked.observed),
+                           std::ranges::max(found.channels, {}, [](const auto& c) { return c.size(); }).size());
+    if (checked.needed <= narrow) return "";
     const std::uint64_t spared = 1 + found.pixels / 5000;
     if (found.beyond > spared && found.most > most + 0.5) return more_than_right(found.most);
     if (found.beyond > spared)

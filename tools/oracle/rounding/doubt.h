@@ -1,6 +1,8 @@
-// tools/oracle/rounding/doubt.h - reasons not to call a picture right although one hypothesis reaches every pixel.
+// tools/oracle/rounding/doubt.h - reasons not to call a picture right, or explained by a mistake, although one
+// hypothesis reaches every pixel.
 //
 // Rule     A picture of codes with a value more than 5 codes from the exact one is doubted, whatever its hypothesis.
+//          A picture that is 4 codes off where more than 5 are possible must have many different pixels.
 //          Otherwise: with many layers a wide hypothesis reaches nearly any value. Rounding is told from a mistake by
 //          three properties: it moves a value by a few codes, whatever the number of layers; over many pixels its mean
 //          is near 0; and it does not grow with the layers, or with the transmittance. Distances are measured from
@@ -29,7 +31,7 @@ inline constexpr double most_codes_of_right = 5;
 }
 
 // The first reason, as words after "not decided: "; empty if there is none.
-[[nodiscard]] std::string doubt_of(const SceneFragments& scene, const Colors& candidate, const CheckedAccount& right,
+[[nodiscard]] std::string doubt_of(const SceneFragments& scene, const Colors& candidate, const CheckedAccount& checked,
                                    const Families& definite);
 
 }  // namespace strata::oracle::verdict

@@ -13,6 +13,7 @@
 #include "tools/oracle/rules/rules.h"
 #include "tools/oracle/verdict/equal_picture.h"
 #include "tools/oracle/verdict/exchanged_depths.h"
+#include "tools/oracle/verdict/opposite_edges.h"
 #include "tools/oracle/verdict/other_profile.h"
 #include "tools/oracle/verdict/report.h"
 #include "tools/oracle/verdict/shifted_edges.h"
@@ -75,6 +76,7 @@ class PictureJudge {
         find_shifted_edges();
         find_exchanged_depths();
         doubt_many_edges();
+        doubt_opposite_edges();
         return std::move(result_);
     }
 
@@ -173,6 +175,19 @@ class PictureJudge {
             "{} of {} pixels at edges are excused, where another rasterizer's snapping moves few: "
             "another view or position?",
             found.right.at_edges, found.right.edges);
+    }
+
+    // Pixels that another rasterizer would excuse whatever the direction of their error are no evidence of one.
+    void doubt_opposite_edges() {
+        Verdict& found = result_.found;
+        if (!found.is_right || found.right.at_edges == 0) return;
+        const ExcusedEdges excused = excused_edges(scene(), seen(), found.right);
+        if (!excused.show_no_coverage()) return;
+        found.is_right = false;
+        found.doubt = fmt::format(
+            "{} of the {} pixels that are excused at edges would be excused if they were off in the opposite "
+            "direction: they show no other coverage",
+            excused.either_way, excused.all);
     }
 
     const RunInput& input_;

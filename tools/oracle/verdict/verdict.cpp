@@ -239,6 +239,13 @@ Verdict found_at_length(SceneFragments& scene, const Colors& candidate, const Se
     return verdict;
 }
 
+// True if the right structure reaches most of the changed pixels, too, under rounding of more than two codes: such a
+// mistake moves values by less than its rounding does, and another mistake can have the same picture.
+bool fits_by_rounding(const CheckedAccount& c) {
+    constexpr double few_codes = 2;
+    return has_codes(c.account.hypothesis.result.storage) && c.possible > few_codes && 4 * c.undecided > 3 * c.changed;
+}
+
 }  // namespace
 
 Verdict judge_at_length(SceneFragments& scene, const Colors& candidate, const SearchLimits& limits) {
@@ -252,6 +259,11 @@ Verdict judge_at_length(SceneFragments& scene, const Colors& candidate, const Se
         std::erase_if(verdict.explanations, [](const CheckedAccount& c) {
             return c.excuses_many_edges() && c.at_edges > c.changed - c.undecided;
         });
+    std::erase_if(verdict.explanations, fits_by_rounding);
+    const Choices all = choices(candidate);
+    std::erase_if(verdict.explanations, [&](const CheckedAccount& c) {
+        return c.undecided > 0 && !doubt_of(scene, candidate, c, all.definite).empty();
+    });
     if (wide > 0 && verdict.explanations.empty() && verdict.right.is_whole())
         verdict.doubt = "a mistake explains the picture better, but needs rounding of more than 5 codes";
     sort_explanations(verdict);

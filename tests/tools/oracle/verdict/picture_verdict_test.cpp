@@ -166,9 +166,9 @@ TEST_CASE("no port whose mistake hides in the rounding of many layers is called 
         std::reverse(l.visible.begin() + static_cast<std::ptrdiff_t>((l.visible.size() + 1) / 2), l.visible.end());
     };
     const std::pair<const char*, ChangeList> ports[] = {
-        {"alpha 0.9", scaled(0.9f)},         {"alpha 0.95", scaled(0.95f)}, {"colours squared", squared},
-        {"second pass", second_pass},        {"capped at 3", capped},       {"unsorted rest", remainder},
-        {"far half reversed", far_reversed},
+        {"alpha 0.9", scaled(0.9f)},  {"alpha 0.95", scaled(0.95f)},       {"alpha 0.93", scaled(0.93f)},
+        {"colours squared", squared}, {"second pass", second_pass},        {"capped at 3", capped},
+        {"unsorted rest", remainder}, {"far half reversed", far_reversed},
     };
     Hypothesis floats = port_of_codes(Order::over);
     floats.front = floats.back = {Storage::single, SourceRounding::unrounded, Rounding::nearest};
@@ -177,5 +177,8 @@ TEST_CASE("no port whose mistake hides in the rounding of many layers is called 
             const PictureVerdict found = verdict_on(opened, picture_of_port(opened, h, change));
             INFO(name << ": " << first_line(found.found, opened.scene.list));
             CHECK_FALSE(found.is_right());
+            // No rule scales all alphas by 0.95, so that a name would be false.
+            if (std::string_view{name} == "alpha 0.95" || std::string_view{name} == "alpha 0.93")
+                CHECK(found.found.explanations.empty());
         }
 }
