@@ -50,6 +50,7 @@ std::optional<std::uint64_t> free_memory() {
 
 std::string memory_text(std::uint64_t bytes) {
     constexpr std::uint64_t megabyte = std::uint64_t{1} << 20, gigabyte = std::uint64_t{1} << 30;
+    if (bytes < megabyte) return std::to_string(bytes) + " bytes";
     if (bytes < gigabyte) return std::to_string((bytes + megabyte - 1) / megabyte) + " MB";
     const std::uint64_t tenths = (bytes * 10 + gigabyte - 1) / gigabyte;
     return std::to_string(tenths / 10) + (tenths % 10 == 0 ? "" : "." + std::to_string(tenths % 10)) + " GB";

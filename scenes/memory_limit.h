@@ -21,7 +21,7 @@ void expect_for_a_pixel(std::uint64_t bytes) noexcept;
 [[nodiscard]] std::uint64_t held_memory();
 // Bytes of memory that the computer has free; empty if the system does not report it.
 [[nodiscard]] std::optional<std::uint64_t> free_memory();
-// "16.5 GB" or "300 MB", in units of 2^30 and 2^20 bytes, as the suffixes G and M of options.
+// "16.5 GB", "300 MB" or "10 bytes", in units of 2^30 and 2^20 bytes, as the suffixes G and M of options.
 [[nodiscard]] std::string memory_text(std::uint64_t bytes);
 
 // A need of memory, as in "render.raw: size: expected a file that takes at most 12 MB, which --max-memory leaves, found

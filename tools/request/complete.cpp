@@ -73,6 +73,8 @@ std::optional<OptionConflict> option_conflict(const PictureRequest& request) {
         return OptionConflict{"", "--interpolate is valid only with --shading pixel"};
     if (sampling.resolve != pipeline::Resolve::box && request.sample)
         return OptionConflict{"", "--resolve is valid only without --sample: one sample is not resolved"};
+    if (sampling.resolve == pipeline::Resolve::quincunx && sampling.samples == 1)
+        return OptionConflict{"--resolve", "expected quincunx with --samples 2, found 1 sample per pixel"};
     if (request.orbit && !request.camera.empty()) return OptionConflict{"", "--orbit and --camera exclude each other"};
     return std::nullopt;
 }

@@ -2,6 +2,8 @@
 // options that differ from a candidate's (recorded_command.h).
 #include "tools/strata/recorded_command.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -14,6 +16,7 @@
 #include "scenes/inside_folder.h"
 #include "scenes/printable.h"
 #include "scenes/scene.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/options/options.h"
 #include "tools/strata/options/shell_words.h"
@@ -134,6 +137,17 @@ std::vector<std::string> differences(const std::string& recorded, const std::str
     for (const auto& [name, value] : ours)
         if (!there.contains(name) && name != "--size") found.push_back("no " + name + " (here: " + value + ")");
     return found;
+}
+
+void warn_of_other_command(const std::string& file, const RunOptions& run, std::string_view command) {
+    if (!file.ends_with(".png") && !file.ends_with(".exr")) return;
+    const scenes::Attributes attributes = scenes::read_attributes(file);
+    const auto recorded = attributes.find("command");
+    if (recorded == attributes.end()) return;
+    const auto found = differences(recorded->second, canonical_command("render", run, run.algorithms));
+    if (found.empty()) return;
+    say_warning(fmt::format("{}: made by a command with {}; give {} the same, or compare other pictures", file,
+                            fmt::join(found, ", "), command));
 }
 
 std::string recorded_command(const std::string& file) {

@@ -7,7 +7,10 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "tools/strata/options/options.h"
 
 namespace strata::tools {
 
@@ -18,6 +21,10 @@ namespace strata::tools {
 // algorithm: "--background 1,1,1 (here: none)". Empty if both commands render the same, or if a line is not a command
 // of strata.
 [[nodiscard]] std::vector<std::string> differences(const std::string& recorded, const std::string& here);
+
+// Pictures written by this program contain their command. Warns if it differs from the options of `command`, such as
+// a forgotten --background, because that is not a mistake of a port.
+void warn_of_other_command(const std::string& file, const RunOptions& run, std::string_view command);
 
 // Expands `render --from FILE` or `layers --from FILE`: the words of the recorded command replace the two words, with
 // its scene and profile as paths in that folder. --files-in remains, as the folder of a camera's file. Throws

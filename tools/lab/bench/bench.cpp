@@ -90,7 +90,6 @@ int show_effects_of(BenchOptions& options) {
     if (!options.output.empty() || !options.baseline.empty())
         throw CLI::ValidationError("--per-effect goes with neither -o nor --baseline");
     std::erase(options.algorithms, nullptr);
-    options.run.algorithms = options.algorithms;
     options.run.render.execution = options.executions.front();
     options.run.render.effects = options.effects.front();
     options.run.render.simd = options.simds.front();
@@ -99,6 +98,8 @@ int show_effects_of(BenchOptions& options) {
 }
 
 int bench(BenchOptions& options) {
+    options.run.algorithms = options.algorithms;
+    std::erase(options.run.algorithms, nullptr);  // the depth pass
     complete(options.run);
     check_outputs({{"-o", options.output, {".json"}}});
     if (options.per_effect) return show_effects_of(options);
@@ -118,6 +119,7 @@ int bench(BenchOptions& options) {
 Command add_bench(CLI::App& root) {
     auto* app = add_lab_command(root, "bench");
     const auto options = std::make_shared<BenchOptions>();
+    options->run.app = app;
     const auto names = job_names();
     options->algorithms = values_of(names);
     app->add_option("SCENE", options->scenes,

@@ -205,7 +205,7 @@ struct CostSweep {
 }
 
 [[nodiscard]] std::string summary(const Lines& lines, const Lines& timings, const std::string& folder) {
-    return titled(to_text(ranked_table(lines, timings))) +
+    return titled(to_text(ranked_table(lines, timings))) + '\n' + best_rows(lines, timings) +
            fmt::format(
                "RMSE in 1/255: from sorted, the error of the choice alone (against the A-buffer of the same device); "
                "from "

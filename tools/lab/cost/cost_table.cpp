@@ -8,6 +8,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "peeling/registry.h"
 #include "tools/lab/bench/spread.h"
 
 namespace strata::tools {
@@ -92,6 +93,64 @@ Table ranked_table(const Lines& lines, const Lines& timings) {
                               card_text(line, lines[standard])});
     }
     return table;
+}
+
+namespace {
+
+// The row that is_before all others of a scene among those that are meant; null if there is none.
+const ordered_json* best_of(const Lines& lines, const Lines& timings, const std::string& scene, auto is_meant,
+                            auto rank) {
+    const ordered_json* best = nullptr;
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const ordered_json& line = lines[i];
+        if (line.at("scene") != scene || line.at("sorted_rmse").is_null() || !ratio_in(timings[i]) || !is_meant(line))
+            continue;
+        if (best != nullptr && !(rank(line, timings[i]) < rank(*best, timings[at]))) continue;
+        best = &line;
+        at = i;
+    }
+    return best;
+}
+
+}  // namespace
+
+std::string best_rows(const Lines& lines, const Lines& timings) {
+    const auto time_of = [](const ordered_json& timing) { return ratio_in(timing)->median; };
+    const auto by_error = [&](const ordered_json& line, const ordered_json& timing) {
+        return std::tuple{line.at("sorted_rmse").get<double>(), line.at("rmse").get<double>(), time_of(timing)};
+    };
+    const auto by_time = [&](const ordered_json& line, const ordered_json& timing) {
+        return std::tuple{time_of(timing), line.at("sorted_rmse").get<double>()};
+    };
+    const auto is_algorithm = [](bool exact) {
+        return [exact](const ordered_json& line) {
+            const auto* const algorithm = peeling::find_algorithm(line.at("algorithm").get<std::string>());
+            const std::string knob = line.at("knob");
+            return algorithm != nullptr && !algorithm->is_oracle && algorithm->exact == exact &&
+                   (knob == "default" || knob == "algorithm");
+        };
+    };
+    std::vector<std::string> scenes;
+    for (const ordered_json& line : lines)
+        if (std::ranges::find(scenes, line.at("scene").get<std::string>()) == scenes.end())
+            scenes.push_back(line.at("scene"));
+    std::string text;
+    const auto add = [&](const std::string& scene, const char* what, const ordered_json* line) {
+        if (line == nullptr) return;
+        const auto& timing = timings[static_cast<std::size_t>(line - lines.data())];
+        text += fmt::format("{}, {}: {} {}: RMSE {} from sorted, {} from exact, {:.2f} of the default's time\n", scene,
+                            what, line->at("knob").get<std::string>(), choice_text(*line),
+                            error_text(line->at("sorted_rmse")), error_text(line->at("rmse")), time_of(timing));
+    };
+    for (const std::string& scene : scenes) {
+        add(scene, "best exact algorithm", best_of(lines, timings, scene, is_algorithm(true), by_error));
+        add(scene, "best approximate algorithm", best_of(lines, timings, scene, is_algorithm(false), by_error));
+        add(scene, "least time",
+            best_of(
+                lines, timings, scene, [](const ordered_json&) { return true; }, by_time));
+    }
+    return text;
 }
 
 }  // namespace strata::tools

@@ -5,6 +5,8 @@
 //          sorted picture and no time; they and refused rows stand last, in the order of the plan.
 // Tests    tests/tools/lab/cost/cost_table_test.cpp
 #pragma once
+#include <string>
+
 #include "tools/lab/sweep/sweep.h"
 #include "tools/strata/table.h"
 
@@ -12,5 +14,8 @@ namespace strata::tools {
 
 // `timings[i]` is the timing of `lines[i]`.
 [[nodiscard]] Table ranked_table(const Lines& lines, const Lines& timings);
+
+// Three lines for each scene: the exact algorithm and the approximate one that rank first, and the quickest row.
+[[nodiscard]] std::string best_rows(const Lines& lines, const Lines& timings);
 
 }  // namespace strata::tools

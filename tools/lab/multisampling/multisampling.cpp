@@ -167,6 +167,7 @@ int multisampling(MultisamplingOptions& options) {
 Command add_multisampling(CLI::App& root) {
     auto* app = add_lab_command(root, "multisampling");
     const auto options = std::make_shared<MultisamplingOptions>();
+    options->run.app = app;
     options->scenes = {"teapot", "planes", "volume-beam:slices=8", "random:triangles=200", "showroom"};
     options->run.default_algorithm = "front_to_back,dual,dual_independent,depth_units";
     options->run.profile = "ideal";

@@ -117,13 +117,18 @@ std::string hint_of_limit(const Diagnosis& d) {
     return "  if the port's peel is stopped by a number of geometry passes, --limit N states it\n";
 }
 
+// A mistake with its name; an option of a right run has none that a command takes.
+std::string description_of(const Mistake& mistake) {
+    const bool is_listed = find_mistake(mistake.name) != nullptr;
+    return mistake.description + (is_listed ? " (" + std::string(mistake.name) + ")" : "");
+}
+
 }  // namespace
 
 std::string description_of(const std::vector<const Mistake*>& mistakes) {
     if (mistakes.empty()) return "a correct implementation";
     std::string text;
-    for (const Mistake* mistake : mistakes)
-        text += fmt::format("{}{} ({})", text.empty() ? "" : "; and: ", mistake->description, mistake->name);
+    for (const Mistake* mistake : mistakes) text += (text.empty() ? "" : "; and: ") + description_of(*mistake);
     return text;
 }
 
@@ -140,8 +145,8 @@ std::string to_text(const Diagnosis& d, const Comparison& comparison) {
     for (const std::string& lead : d.leads) text += fmt::format("  lead: {}\n", lead);
     if (d.is_nearly) text += fmt::format("  to the last code: {} of the {} that differ\n", best.explained, d.differing);
     for (const Mistake* mistake : best.alike)
-        text += fmt::format("  the same picture of this scene{}: {} ({})\n", best.passes ? ", and passes alike" : "",
-                            mistake->description, mistake->name);
+        text += fmt::format("  the same picture of this scene{}: {}\n", best.passes ? ", and passes alike" : "",
+                            description_of(*mistake));
     for (std::size_t i = 1; i < d.by_layers.size(); ++i)  // the first line has the first
         text += fmt::format("  the same picture of this scene, by its layers: {}\n", d.by_layers[i]);
     const bool is_none = d.conclusion == Conclusion::unknown_mistake || d.conclusion == Conclusion::right_structure;

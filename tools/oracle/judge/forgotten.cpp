@@ -275,8 +275,8 @@ std::vector<std::string> forgotten_options(const RunInput& input, const Colors& 
     if (input.sampling.samples == 1 && !seen && wrong_pixels.size() >= few / 4 &&
         10 * at_edges >= 9 * wrong_pixels.size())
         sentences.push_back(fmt::format(
-            "as if drawn with several samples per pixel, --samples 2, 4 or 8: {} of {} wrong pixels are at edges, "
-            "between the colours of their neighbours",
+            "{} of {} wrong pixels are at edges, between the colours of their neighbours: smoothed? --samples 2, 4 and "
+            "8 were tried, and do not make the picture right",
             at_edges, wrong_pixels.size()));
     return sentences;
 }
@@ -294,9 +294,33 @@ std::vector<std::string> forgotten_options(const RunInput& input, const SamplesV
     return forgotten_options(input, verdict.form.colors(), verdict.found.wrong_pixels, camera, progress);
 }
 
+namespace {
+
+// The text without the lines of leads: of a picture that a forgotten option makes right, a lead is false.
+std::string without_leads(const std::string& text) {
+    std::string kept;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
+        const std::string line = text.substr(at, end - at);
+        if (!line.starts_with("  lead: ")) kept += line;
+        at = end;
+    }
+    return kept;
+}
+
+// True if with one of the options, or moved, the picture is right.
+bool explain_all(const std::vector<std::string>& sentences) {
+    return std::ranges::any_of(sentences, [](const std::string& s) {
+        return s.ends_with("the picture is right") || s.find("; and everything is half a pixel") != std::string::npos;
+    });
+}
+
+}  // namespace
+
 std::string json_with_forgotten(const std::string& json, const std::vector<std::string>& sentences) {
     auto document = nlohmann::ordered_json::parse(json);
     document["forgotten"] = sentences;
+    if (explain_all(sentences) && document.contains("leads")) document["leads"] = nlohmann::ordered_json::array();
     return document.dump(2) + '\n';
 }
 
@@ -304,7 +328,8 @@ std::string with_forgotten(const std::string& text, const std::vector<std::strin
     const std::size_t end = text.find('\n') + 1;
     std::string lines;
     for (const std::string& sentence : sentences) lines += "  " + sentence + '\n';
-    return text.substr(0, end) + lines + text.substr(end);
+    const std::string rest = text.substr(end);
+    return text.substr(0, end) + lines + (explain_all(sentences) ? without_leads(rest) : rest);
 }
 
 }  // namespace strata::oracle

@@ -29,6 +29,7 @@
 #include "tools/oracle/verdict/picture_verdict.h"
 #include "tools/strata/compare/compare_pages.h"
 #include "tools/strata/progress.h"
+#include "tools/strata/recorded_command.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/table.h"
 
@@ -274,6 +275,7 @@ int compare_resolved(const SceneQuestion& question, const Session& session, cons
     const std::string text = oracle::with_forgotten(to_text(verdict), hints);
     write_files(question, session, candidate, shown(verdict, text));
     print(question.json ? oracle::json_with_forgotten(to_json(verdict), hints) : with_painted_verdicts(text));
+    if (!verdict.found.is_right()) warn_of_other_command(candidate.file, question.run, "compare");
     return verdict.found.is_right() ? 0 : 1;
 }
 
@@ -327,6 +329,7 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
     write_files(question, session, candidate, shown(verdict, list, text));
     print(question.json ? oracle::json_with_forgotten(to_json(verdict, list, session.profile.name), hints)
                         : with_painted_verdicts(text));
+    if (!verdict.is_right()) warn_of_other_command(candidate.file, question.run, "compare");
     return verdict.is_right() ? 0 : 1;
 }
 

@@ -9,7 +9,6 @@
 
 #include "peeling/algorithms/algorithm.h"
 #include "rasterizer/base/input_error.h"
-#include "scenes/files/picture_attributes.h"
 #include "scenes/files/profile_json.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/diagnosis/diagnosis_report.h"
@@ -137,19 +136,8 @@ void draw_mistakes(OpenCase& opened) {
     opened.mistake_images.emplace(*opened.mistake_renderer);
 }
 
-// Pictures written by this program contain their command. A difference of options, such as a forgotten --background, is
-// reported as such, because it is not a mistake of a port.
 void warn_of_other_command(const OpenCase& opened) {
-    const std::string& file = opened.candidate.file;
-    if (!file.ends_with(".png") && !file.ends_with(".exr")) return;
-    const scenes::Attributes attributes = scenes::read_attributes(file);
-    const auto recorded = attributes.find("command");
-    if (recorded == attributes.end()) return;
-    const RunOptions& run = opened.options.run;
-    const auto found = differences(recorded->second, canonical_command("render", run, run.algorithms));
-    if (found.empty()) return;
-    say_warning(fmt::format("{}: made by a command with {}; give diagnose the same, or compare other pictures", file,
-                            fmt::join(found, ", ")));
+    warn_of_other_command(opened.candidate.file, opened.options.run, "diagnose");
 }
 
 oracle::ShowProgress shown_by(Progress& bar) {

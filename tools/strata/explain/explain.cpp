@@ -3,12 +3,14 @@
 #include <string>
 #include <type_traits>
 
+#include "pipeline/device/check.h"
 #include "scenes/files/atomic_file.h"
 #include "tools/oracle/explain/history_report.h"
 #include "tools/oracle/fragments/form.h"
 #include "tools/oracle/search/edits.h"
 #include "tools/strata/command.h"
 #include "tools/strata/compare/compare_scene.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/options/options.h"
 #include "tools/strata/render/run.h"
@@ -71,11 +73,18 @@ std::optional<Pixel> to_pixel(std::string_view text) {
 template <class Explained, class ExplainOne>
 std::string explained(ExplainOptions& options, const ExplainOne& explain_one) {
     const Session session = open_session(options.run);
+    const oracle::RunInput input{session.scene.list, session.view, session.profile, options.run.render,
+                                 sampling_of(options.run)};
     std::vector<Explained> histories;
-    for (const peeling::Algorithm* algorithm : options.run.algorithms)
-        histories.push_back(explain_one(oracle::RunInput{session.scene.list, session.view, session.profile,
-                                                         options.run.render, sampling_of(options.run)},
-                                        *algorithm));
+    for (const peeling::Algorithm* algorithm : options.run.algorithms) {
+        try {
+            histories.push_back(explain_one(input, *algorithm));
+        } catch (const pipeline::Refused& refused) {
+            if (options.run.algorithms.size() == 1) throw;
+            say_error(algorithm->name + ": " + refused.what());
+        }
+    }
+    if (histories.empty()) throw CLI::ValidationError("--algorithm", "expected one that the profile does not refuse");
     if constexpr (std::is_same_v<Explained, oracle::History>)
         if (!options.svg.empty()) scenes::write_file(options.svg, oracle::to_svg(histories));
     if (options.json) return oracle::to_json(histories);

@@ -80,6 +80,10 @@ int render_mistaken(RunOptions& options, const std::vector<const oracle::Mistake
                                        std::string(mistakes.front()->name) + "'");
     std::string names;
     for (const oracle::Mistake* mistake : mistakes) names += (names.empty() ? "" : ",") + std::string(mistake->name);
+    if (picture->targets[0].codes == mistake_renderer.right().targets[0].codes)
+        say_warning(
+            "--mistake " + names +
+            " changes no pixel of this picture; strata diagnose --list --suite lists scenes that show mistakes");
     scenes::write_image(options.output, {.color = oracle::color_image(*picture),
                                          .premultiplied = true,
                                          .space = options.scene_options.color_space,

@@ -10,10 +10,15 @@ using nlohmann::ordered_json;
 
 ordered_json line_of(const char* knob, const char* value, ordered_json sorted, ordered_json exact) {
     const bool is_refused = exact.is_null();
-    return {{"scene", "made-up"},      {"knob", knob},
-            {"value", value},          {"opened", ""},
-            {"sorted_rmse", sorted},   {"rmse", exact},
-            {"modelled_seconds", 1.5}, {"outcome", is_refused ? "refused" : "done"}};
+    return {{"scene", "made-up"},
+            {"knob", knob},
+            {"value", value},
+            {"opened", ""},
+            {"algorithm", value},
+            {"sorted_rmse", sorted},
+            {"rmse", exact},
+            {"modelled_seconds", 1.5},
+            {"outcome", is_refused ? "refused" : "done"}};
 }
 
 ordered_json timing_of(double median, int rounds = 5) {
@@ -50,6 +55,21 @@ TEST_CASE("a time whose rounds overlap those of the default or are too few has a
     const Lines lines{line_of("default", "dual", 0, 1), line_of("depth", "d16", 1, 1), line_of("depth", "d24", 2, 1)};
     const Table table = ranked_table(lines, {timing_of(1), timing_of(1.1), timing_of(9, 3)});
     CHECK(column(table, 6) == Cells{"1", "1.10 (0.99 to 1.32) ?", "9.00 (8.10 to 10.80) ?"});
+}
+
+TEST_CASE("the best exact and the best approximate algorithm and the quickest row are said in three lines") {
+    const Lines lines{line_of("default", "front_to_back", 0.02, 2),     line_of("algorithm", "dual", 0.01, 3),
+                      line_of("algorithm", "moments", 0.5, 4),          line_of("algorithm", "weighted_sum", 0.25, 5),
+                      line_of("algorithm", "a_buffer", 0, 1),           line_of("depth", "d16", 9, 9),
+                      line_of("algorithm", "painter", nullptr, nullptr)};
+    const Lines timings{timing_of(1), timing_of(2),     timing_of(0.25),       timing_of(0.75),
+                        timing_of(7), timing_of(0.125), {{"default", nullptr}}};
+    CHECK(best_rows(lines, timings) ==
+          "made-up, best exact algorithm: algorithm dual: RMSE 0.01 from sorted, 3 from exact, 2.00 of the default's "
+          "time\n"
+          "made-up, best approximate algorithm: algorithm weighted_sum: RMSE 0.25 from sorted, 5 from exact, 0.75 of "
+          "the default's time\n"
+          "made-up, least time: depth d16: RMSE 9 from sorted, 9 from exact, 0.12 of the default's time\n");
 }
 
 TEST_CASE("each scene has its own ranks and its own default") {

@@ -76,7 +76,10 @@ TEST_CASE("cost prints a table of all rows with the best first and where its fil
     const CommandResult ended = cost(folder, "out", {"--clock", "processor"});
     REQUIRE(ended.status == 0);
     const auto lines = lines_of(ended.out);
-    CHECK(lines.size() == lines_of(content_of(folder / "out/results.csv")).size() + 2);
+    const std::size_t rows = lines_of(content_of(folder / "out/results.csv")).size();
+    CHECK(lines.size() == rows + 5);
+    CHECK_THAT(lines[rows + 1], Catch::StartsWith("teapot, best exact algorithm: default "));
+    CHECK_THAT(lines[rows + 2], Catch::StartsWith("teapot, least time: "));
     CHECK_THAT(lines[0], Catch::Contains("RMSE from sorted") && Catch::Contains("RMSE from exact"));
     CHECK_THAT(lines[1], Catch::Contains("1  teapot"));
     CHECK(lines.back() == "Rows: out/results.csv. Page with plots: tools/lab/cost/page.py out -o FILE.md");

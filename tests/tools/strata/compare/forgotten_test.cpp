@@ -52,12 +52,29 @@ TEST_CASE("a picture from another camera is named as such with the view that it 
     CHECK(found.out.find("compared with: --orbit 30,20, background 0,0,0\n") != std::string::npos);
 }
 
-TEST_CASE("diagnose says which option looks forgotten before its leads and nothing of a right picture") {
+TEST_CASE("of a wrong picture that records its command compare and diagnose say which option differs") {
+    const Folder folder;
+    REQUIRE(shell(folder, "strata render teapot --size 64x48 -q --alpha 0.5 -o port.png").status == 0);
+    for (const std::string command : {"compare", "diagnose"}) {
+        const CommandResult found = shell(folder, "strata " + command + " teapot port.png");
+        INFO(found.out << found.err);
+        CHECK(found.status == 1);
+        CHECK(found.err.find("port.png: made by a command with --alpha 0.5 (here: none); give " + command) !=
+              std::string::npos);
+        CHECK(shell(folder, "strata " + command + " teapot port.png --alpha 0.5").err.empty());
+    }
+}
+
+TEST_CASE("diagnose says which option looks forgotten without leads and nothing of a right picture") {
     const Folder folder;
     REQUIRE(shell(folder, "strata render planes:count=3 --size 40x30 --samples 4 -q -o port.png").status == 0);
     const CommandResult found = shell(folder, "strata diagnose planes:count=3 port.png --algorithm front_to_back");
     INFO(found.out);
-    CHECK(found.out.find("looks forgotten: --samples 4; with it the picture is right") < found.out.find("  lead: "));
+    CHECK(found.out.find("looks forgotten: --samples 4; with it the picture is right") != std::string::npos);
+    CHECK(found.out.find("  lead: ") == std::string::npos);
+    const CommandResult compared = shell(folder, "strata compare planes:count=3 port.png");
+    CHECK(compared.out.find("looks forgotten: --samples 4; with it the picture is right") != std::string::npos);
+    CHECK(compared.out.find("  lead: ") == std::string::npos);
     REQUIRE(shell(folder, "strata render planes:count=3 --size 40x30 -q -o right.png").status == 0);
     CHECK(shell(folder, "strata compare planes:count=3 right.png").out.find("forgotten") == std::string::npos);
 }

@@ -115,6 +115,35 @@ TEST_CASE("explain describes a pixel in text and as JSON and reports the valid p
           "strata: --pixel: expected two whole numbers from 0 such as 320,200, found '4'\n");
 }
 
+TEST_CASE("explain describes the algorithms that are not refused and reports the others") {
+    const Folder folder;
+    const auto explained = [&](const char* algorithms) {
+        return run_strata(folder, {"explain", "teapot", "--size", "32x24", "--pixel", "16,12", "--profile", "geforce3",
+                                   "--algorithm", algorithms});
+    };
+    const CommandResult both = explained("dual,depth_units");
+    CHECK(both.status == 0);
+    CHECK(both.err.find("strata: dual: profile geforce3 has no ") == 0);
+    CHECK(both.out == explained("depth_units").out);
+    const CommandResult none = explained("dual,front_to_back");
+    CHECK(none.status == 2);
+    CHECK(none.out.empty());
+}
+
+TEST_CASE("render --mistake warns of a mistake that changes no pixel of the picture") {
+    const Folder folder;
+    const auto rendered = [&](const char* mistake) {
+        return run_strata(folder, {"render", "teapot", "--size", "32x24", "--algorithm", "front_to_back", "--mistake",
+                                   mistake, "-o", "a.png"});
+    };
+    const CommandResult same = rendered("order_reversed");  // no two depths of a pixel are equal
+    CHECK(same.status == 0);
+    CHECK(same.err.find("--mistake order_reversed changes no pixel of this picture") != std::string::npos);
+    const CommandResult other = rendered("one_pass_too_few");
+    CHECK(other.status == 0);
+    CHECK(other.err.empty());
+}
+
 TEST_CASE("passes writes nothing if a folder has the name of one of its files") {
     const Folder folder;
     const std::string name = GENERATE("contact.png", "pass.002.exr", "dual.passes.json");

@@ -94,6 +94,10 @@ TEST_CASE("an option that nothing reads is refused by name") {
         {{"render", "teapot", "-o", "a.png", "--mistake", "over_for_under", "--stats", "-"},
          "--stats has no effect with --mistake"},
         {{"render", "teapot", "--counters"}, "--counters has no effect without --stats"},
+        {{"bench", "teapot", "--algorithm", "depth,dual", "--moments", "6"}, "--moments has no effect on dual; "},
+        {{"multisampling", "teapot", "--algorithm", "dual", "--nodes", "2"}, "--nodes has no effect on dual; "},
+        {{"render", "teapot", "--resolve", "quincunx"},
+         "--resolve: expected quincunx with --samples 2, found 1 sample per pixel"},
     }));
     const Folder folder;
     const CommandResult ended = run_strata(folder, idle.words);

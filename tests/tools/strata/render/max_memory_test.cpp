@@ -172,3 +172,10 @@ TEST_CASE("the pixels of a picture are counted before they are decoded") {
                   .err.starts_with("strata: --max-memory: "));
     CHECK_FALSE(std::filesystem::exists(folder / "out"));
 }
+
+TEST_CASE("a limit below a megabyte is said in bytes") {
+    const Folder folder;
+    const CommandResult ended = run_strata(folder, {"render", "teapot", "--size", "8x8", "--max-memory", "10"});
+    CHECK(ended.status == 2);
+    CHECK(ended.err.find("the limit is 10 bytes;") != std::string::npos);
+}
