@@ -35,8 +35,8 @@ std::string false_pass(const OpenedScene& opened, const char* algorithm) {
     const int apart = most_codes_apart(*exact, *picture);
     const PictureVerdict found = judge_picture(opened.input(), {.colors = *picture});
     if (apart <= 2 || !found.is_right()) return "";
-    return std::string(algorithm) + " is off by " + std::to_string(apart) + " codes: " +
-           first_line(found.found, opened.scene.list) + '\n';
+    return std::string(algorithm) + " is off by " + std::to_string(apart) +
+           " codes: " + first_line(found.found, opened.scene.list) + '\n';
 }
 
 }  // namespace
