@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "tools/oracle/fragments/sample.h"
-#include "tools/oracle/program/fit/score.h"
 
 namespace strata::oracle::program {
 
@@ -35,15 +34,9 @@ void add(Lists& lists, const verdict::PixelList& list, const std::array<double, 
     }
 }
 
-// True if the right program gives the colour that is seen, apart from rounding.
-bool is_right(const Lists& lists, const ListPixel& pixel) {
-    const Color off = residual(value(Program{}, pixel, {}), pixel, lists.unit());
-    return std::ranges::all_of(off, [&](double r) { return std::fabs(r) <= bound_at(pixel); });
-}
-
-// Reverses the order of equal codes if that is right, and the given one is not.
-void order_ties(Lists& lists, ListPixel& pixel) {
-    std::vector<ListFragment> other{pixel.fragments.begin(), pixel.fragments.end()};
+// The list with every group of equal codes reversed; empty if there is none.
+std::vector<ListFragment> with_reversed_ties(std::span<const ListFragment> given) {
+    std::vector<ListFragment> other{given.begin(), given.end()};
     bool has_ties = false;
     for (std::size_t i = 0, end = 0; i < other.size(); i = end) {
         end = i + 1;
@@ -51,11 +44,20 @@ void order_ties(Lists& lists, ListPixel& pixel) {
         has_ties |= end - i > 1;
         std::reverse(other.begin() + static_cast<std::ptrdiff_t>(i), other.begin() + static_cast<std::ptrdiff_t>(end));
     }
-    if (!has_ties) return;
-    ListPixel reversed = pixel;
-    reversed.fragments = other;
-    if (!is_right(lists, pixel) && is_right(lists, reversed))
-        std::ranges::copy(other, lists.fragments.begin() + static_cast<std::ptrdiff_t>(pixel.first));
+    return has_ties ? other : std::vector<ListFragment>{};
+}
+
+void reverse_ties(Lists& lists) {
+    std::vector<std::size_t> starts;
+    for (const ListPixel& pixel : lists.pixels) {
+        const std::vector<ListFragment> other = with_reversed_ties(pixel.fragments);
+        starts.push_back(lists.reversed.size());
+        lists.reversed.insert(lists.reversed.end(), other.begin(), other.end());
+    }
+    starts.push_back(lists.reversed.size());
+    for (std::size_t i = 0; i < lists.pixels.size(); ++i)
+        lists.pixels[i].reversed =
+            std::span<const ListFragment>{lists.reversed}.subspan(starts[i], starts[i + 1] - starts[i]);
 }
 
 void set_triangle_depths(Lists& lists) {
@@ -79,7 +81,10 @@ void settle_background(Lists& lists) {
     Color side{1, 1, 1};
     for (const ListPixel& pixel : lists.pixels)
         if (pixel.fragments.empty() && !pixel.has_opaque)
-            for (std::size_t c = 0; c < 3; ++c) side[c] = pixel.seen[c] < pixel.behind[c] ? -1 : 1;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double off = (pixel.seen[c] - pixel.behind[c]) * codes;
+                side[c] = -1 < off && off < 0 ? -1 : 1;
+            }
     for (ListPixel& pixel : lists.pixels)
         for (std::size_t c = 0; c < 3 && !pixel.has_opaque; ++c) {
             const double code = pixel.behind[c] * codes, part = code - std::floor(code);
@@ -97,7 +102,7 @@ void complete(Lists& lists) {
     }
     settle_background(lists);
     set_triangle_depths(lists);
-    for (ListPixel& pixel : lists.pixels) order_ties(lists, pixel);
+    reverse_ties(lists);
 }
 
 Lists lists_of(const verdict::SceneFragments& scene, const verdict::Colors& candidate) {

@@ -2,7 +2,7 @@
 // them, and the colour that the candidate has there.
 //
 // Rule     A pixel's fragments are the visible ones by depth code. The order of equal codes is not part of the
-//          question: it is reversed where only that is right.
+//          question: a pixel has both, and the one counts that comes closer.
 // Numbers  `unit` is the step in which residuals are counted: one code of the candidate's format, 2^-11 of halves,
 //          2^-18 of binary32.
 // Tests    tests/tools/oracle/program/parts_test.cpp
@@ -39,7 +39,8 @@ struct ListPixel {
     int x = 0, y = 0;
     std::size_t first = 0;  // fragments of all pixels before it
     std::span<const ListFragment> fragments{};
-    Color behind{};  // the opaque surface, or the background
+    std::span<const ListFragment> reversed{};  // the same with equal codes in reverse order; empty: there are none
+    Color behind{};                            // the opaque surface, or the background
     bool has_opaque = false;
     Color seen{};  // the candidate's
 };
@@ -55,7 +56,7 @@ struct Lists {
 
     int width = 0, height = 0;
     PortFormat format = PortFormat::unorm8;  // of the candidate
-    std::vector<ListFragment> fragments{};
+    std::vector<ListFragment> fragments{}, reversed{};
     std::vector<ListPixel> pixels{};
     [[nodiscard]] double unit() const noexcept { return step_of(format); }
 };
@@ -63,8 +64,8 @@ struct Lists {
 // The lists of a scene whose fragments are kept.
 [[nodiscard]] Lists lists_of(const verdict::SceneFragments& scene, const verdict::Colors& candidate);
 
-// Sets the spans of the pixels, whose `first` are known, and the triangles' depths, and chooses the order of equal
-// codes.
+// Sets the spans of the pixels, whose `first` are known, the triangles' depths, and the lists with equal codes
+// reversed.
 void complete(Lists& lists);
 
 }  // namespace strata::oracle::program

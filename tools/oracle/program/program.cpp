@@ -2,6 +2,7 @@
 #include "tools/oracle/program/program.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace strata::oracle::program {
 
@@ -116,10 +117,25 @@ bool changes(const Program& program, const ListPixel& pixel) {
     });
 }
 
+bool is_round(double parameter) noexcept { return std::fabs(parameter * 100 - std::nearbyint(parameter * 100)) < 1e-7; }
+
+namespace {
+
+// A number of few digits is cheap: that one fits is no accident.
+double price_of(double parameter) {
+    const auto is_whole = [&](double scale) {
+        return std::fabs(parameter * scale - std::nearbyint(parameter * scale)) < 1e-9 * scale;
+    };
+    return is_whole(8) || is_whole(10) ? 4 : is_round(parameter) ? 8 : 14;
+}
+
+}  // namespace
+
 double price(const Program& program) {
     double bits = 0;
     for (const Edit& edit : program.edits) {
-        bits += edit.entry->price + (edit.entry->parameters.empty() ? 0 : edit.entry->is_continuous ? 8.0 : 4.0);
+        bits += edit.entry->price;
+        for (const double parameter : edit.parameters) bits += price_of(parameter);
         for (const Condition& c : edit.conditions) bits += c.property->price;
     }
     return bits;

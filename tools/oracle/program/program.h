@@ -45,8 +45,10 @@ struct StepEntry {
     std::string_view words;                // what happens to the fragments or colours; {} is the parameter
     double price = 4;                      // bits
     std::span<const double> parameters{};  // candidates of the parameter; empty: none
-    bool is_continuous = false;            // the parameter is fitted
-    bool is_order = false;                 // acts on the selected fragments together
+    // Of entries with several fitted parameters: where they begin, for depths in this range.
+    std::vector<double> (*start)(double nearest, double farthest) = nullptr;
+    bool is_continuous = false;  // the parameter is fitted
+    bool is_order = false;       // acts on the selected fragments together
     void (*edit)(PortLayers& layers, const SelectedFragments& selection, Parameters parameters) = nullptr;
     Color (*recolor)(const Color& color, Parameters parameters) = nullptr;
     Color (*fold)(std::span<const PortLayer> layers, const Color& behind, const PortRounding& rounding,
@@ -83,6 +85,8 @@ void select(const Edit& edit, const ListPixel& pixel, std::vector<char>& mask);
 // The right fold, with the form of the rounding.
 [[nodiscard]] Color blended(std::span<const PortLayer> layers, const Color& behind, const PortRounding& rounding);
 
+// A parameter of at most two digits after the point.
+[[nodiscard]] bool is_round(double parameter) noexcept;
 [[nodiscard]] double price(const Program& program);
 
 }  // namespace strata::oracle::program

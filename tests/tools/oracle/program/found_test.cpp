@@ -176,3 +176,47 @@ TEST_CASE("other backgrounds, orders, folds and finishes are found", "[slow]") {
         for (double& c : color) c = in_8_bits(c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055);
     CHECK(first_line(encoded) == "wrong: the picture is encoded as sRGB");
 }
+
+TEST_CASE("several parameters are fitted at once: a background, a matrix, a curve of alpha", "[slow]") {
+    PortScene scene = random_scene(15);
+    const auto text = [&](const PortPicture& picture, PortFormat format) { return judged(scene, picture, format); };
+    PortScene other = scene;
+    other.background = {0.15, 0.6, 0.45};
+    CHECK(text(painted(other, unchanged, as_it_is), PortFormat::exact)
+              .starts_with("wrong: the background is (0.15, 0.6, 0.45)"));
+    const auto each = [](void (*change)(PortFragment&)) {
+        return [change](PortList list, int, int) {
+            for (PortFragment& f : list) change(f);
+            return list;
+        };
+    };
+    const std::string mixed =
+        text(painted(scene, each([](PortFragment& f) {
+                         const PortColor c = f.color;
+                         f.color = {0.8 * c[0] + 0.2 * c[1], 0.9 * c[1], 0.7 * c[2] + 0.1 * c[0] + 0.05};
+                     }),
+                     as_it_is),
+             PortFormat::exact);
+    INFO(mixed);
+    CHECK(mixed.starts_with("wrong: all fragments have red that acts as 0.8 red + 0.2 green + 0 blue + 0, green as"));
+    const std::string curve = text(
+        painted(scene, each([](PortFragment& f) { f.alpha = f.alpha < 0.5 ? 0.6 * f.alpha : 1.4 * f.alpha - 0.4; })),
+        PortFormat::unorm8);
+    INFO(curve);
+    CHECK(curve.starts_with("wrong: all fragments have an alpha that acts as 0, 0.15, 0.3, 0.65, 1 where"));
+}
+
+TEST_CASE("two mistakes are told together if few words say each", "[slow]") {
+    PortScene scene = random_scene(16);
+    PortScene white = scene;
+    white.background = {1, 1, 1};
+    const Change left_out = [](PortList list, int, int) {
+        std::erase_if(list, [](const PortFragment& f) { return f.depth >= 0.8; });
+        return list;
+    };
+    const std::string text = judged(scene, painted(white, left_out));
+    INFO(text);
+    CHECK(text.starts_with("wrong: "));
+    CHECK(text.find("the background is white") != text.npos);
+    CHECK(text.find("with depth at least 0.8 are left out") != text.npos);
+}

@@ -102,16 +102,17 @@ TEST_CASE("names of properties and words of entries are unique, and a parameter 
     CHECK(wrong == 0);
 }
 
-TEST_CASE("equal depths are taken in the order that is right, and in the given one if neither is") {
+TEST_CASE("of equal depths the order counts that comes closer, for every program") {
     PortScene scene{.width = 2, .height = 1, .pixels = {{}, {}}};
-    for (PortList& list : scene.pixels)
-        list = {{.color = {1, 0, 0}, .alpha = 0.5, .depth = 0.5, .submission = 0},
-                {.color = {0, 0, 1}, .alpha = 0.5, .depth = 0.5, .submission = 1}};
-    PortList reversed{scene.pixels[0].rbegin(), scene.pixels[0].rend()};
-    const PortPicture picture{over(reversed, scene.background, as_it_is), {0, 0, 0}};
-    const Lists lists = strata::test::lists_of(scene, picture, PortFormat::exact);
-    CHECK(lists.pixels[0].fragments[0].color == Color{0, 0, 1});
-    CHECK(lists.pixels[1].fragments[0].color == Color{1, 0, 0});
+    scene.pixels[0] = {{.color = {1, 0, 0}, .alpha = 0.5, .depth = 0.5, .submission = 0},
+                       {.color = {0, 0, 1}, .alpha = 0.5, .depth = 0.5, .submission = 1}};
+    scene.pixels[1] = scene.pixels[0];
+    scene.pixels[1][1].depth = 0.6;
+    const PortList reversed{scene.pixels[0].rbegin(), scene.pixels[0].rend()};
+    const PortColor color = over(reversed, scene.background, as_it_is);
+    const Lists lists = strata::test::lists_of(scene, {color, color}, PortFormat::exact);
+    CHECK(bits_of(residual_of({}, lists.pixels[0], {}, lists.unit())) == 0);
+    CHECK(bits_of(residual_of({}, lists.pixels[1], {}, lists.unit())) > 10);
 }
 
 TEST_CASE("a background between two codes is the one that is seen") {

@@ -22,28 +22,41 @@ std::vector<Proof> search_and_prove(const Lists& lists, const Program& base, con
         const PortRounding of_program = best_fitness(lists, program).rounding;
         place_thresholds(lists, sample, program, of_program);
         proofs.push_back(prove(lists, program, right));
-        if (proofs.back().cost > 0.5 * right.bits) continue;
-        for (const Program& twin : twins(sample, program))
+        if (proofs.back().cost > 0.5 * right.bits || proofs.size() > 3) continue;
+        for (Program& twin : twins(sample, program)) {
+            place_thresholds(lists, sample, twin, of_program);
             if (measure(lists, twin, of_program).bits < 1.15 * proofs.back().fitness.bits + 60)
                 others.push_back(prove(lists, twin, right));
+        }
     }
     proofs.insert(proofs.end(), others.begin(), others.end());
     return proofs;
 }
 
-// Those that cost about as little as the best, the plainest first. Another sentence is kept only if it predicts the
-// same picture.
+// True if they differ in numbers alone.
+bool says_the_same(const Program& a, const Program& b) {
+    return std::ranges::equal(a.edits, b.edits, [](const Edit& x, const Edit& y) {
+        return x.entry == y.entry &&
+               std::ranges::equal(x.conditions, y.conditions, {}, &Condition::property, &Condition::property);
+    });
+}
+
+// Those that cost about as little as the best, the plainest first.
 std::vector<Proof> alike(const Lists& lists, std::vector<Proof> proofs) {
     if (proofs.empty()) return proofs;
+    // A cause goes before a free fit of many numbers.
+    const auto is_free = [](const Proof& p) { return p.program.edits.back().entry->start != nullptr; };
+    if (!std::ranges::all_of(proofs, is_free)) std::erase_if(proofs, is_free);
     const double best = std::ranges::min(proofs, {}, &Proof::cost).cost;
     std::erase_if(proofs, [&](const Proof& p) { return p.cost > 1.15 * best + 60; });
     std::ranges::stable_sort(proofs, {}, &Proof::rank);
     std::vector<Proof> told;
     for (Proof& proof : proofs) {
         const bool is_told =
-            std::ranges::any_of(told, [&](const Proof& p) { return describe(p.program) == describe(proof.program); });
+            std::ranges::any_of(told, [&](const Proof& p) { return says_the_same(p.program, proof.program); });
         if (is_told || told.size() >= most_told) continue;
-        if (told.empty() || predict_alike(lists, told[0].program, proof.program)) told.push_back(std::move(proof));
+        proof.is_equal = told.empty() || predict_alike(lists, told[0].program, proof.program);
+        told.push_back(std::move(proof));
     }
     return told;
 }
@@ -51,7 +64,6 @@ std::vector<Proof> alike(const Lists& lists, std::vector<Proof> proofs) {
 // A second edit repairs what the first one does not describe: it is a mistake of its own only if few words say it.
 bool is_plain_pair(const Program& program) {
     const Edit &first = program.edits.front(), &second = program.edits.back();
-    const auto is_round = [](double p) { return std::fabs(p * 100 - std::nearbyint(p * 100)) < 1e-6; };
     return second.conditions.size() <= 1 && first.conditions.size() <= 1 &&
            std::ranges::all_of(second.parameters, is_round) && !(first.entry->is_order && second.entry->is_order);
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace strata::oracle::program {
 
@@ -16,7 +18,7 @@ struct Moved {
 Moved moved(const Lists& lists, const Program& program, const Fitness& fitness, const Fitness& right) {
     double wrong = 0, repaired = 0, good = 0, broken = 0;
     const auto is_beyond = [&](const Program& p, const PortRounding& r, const ListPixel& pixel) {
-        const Color off = residual(value(p, pixel, r), pixel, lists.unit());
+        const Color off = residual_of(p, pixel, r, lists.unit());
         return std::ranges::any_of(off, [&](double v) { return std::fabs(v) > bound_at(pixel); });
     };
     for (const ListPixel& pixel : lists.pixels) {
@@ -38,6 +40,14 @@ Proof prove(const Lists& lists, const Program& program, const Fitness& right) {
     const double most = std::max(2.0, 0.002 * static_cast<double>(f.covered));
     proof.is_whole = static_cast<double>(f.beyond) <= most && f.mean < 1 && f.slope < 0.35 &&
                      f.bits_per_covered() < 1.5 && proof.cost < 0.6 * right.bits;
+    // A free fit of several parameters comes near to anything: it explains only by round numbers.
+    const bool is_loose = std::ranges::any_of(program.edits, [](const Edit& edit) {
+        return edit.entry->start != nullptr && !std::ranges::all_of(edit.parameters, is_round);
+    });
+    if (proof.is_whole && is_loose) {
+        proof.is_whole = false;
+        proof.is_part = true;
+    }
     if (!proof.is_whole && proof.cost < 0.55 * right.bits) {
         const Moved m = moved(lists, program, f, right);
         proof.is_part = m.repaired > 0.6 && m.broken < 0.1;
@@ -45,24 +55,52 @@ Proof prove(const Lists& lists, const Program& program, const Fitness& right) {
     return proof;
 }
 
+namespace {
+
+// The condition on this property that holds for the wanted ones among the given; empty if none does.
+std::optional<Condition> separating(const FragmentProperty& property, const std::vector<double>& values,
+                                    const std::vector<char>& given, const std::vector<char>& wanted) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double low = infinity, high = -infinity, low_of_others = infinity, high_of_others = -infinity;
+    bool is_among_others = false;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (wanted[i] != 0) {
+            low = std::min(low, values[i]);
+            high = std::max(high, values[i]);
+        }
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (given[i] != 0 && wanted[i] == 0) {
+            low_of_others = std::min(low_of_others, values[i]);
+            high_of_others = std::max(high_of_others, values[i]);
+            is_among_others |= values[i] == low;
+        }
+    using Is = Condition::Is;
+    const bool is_number = property.kind == FragmentProperty::Kind::number;
+    if (!is_number && low == high && !is_among_others) return Condition{&property, Is::equal, low};
+    const auto between = [&](double a, double b) { return is_number ? shortest_between(a, b) : b; };
+    if (low > high_of_others) return Condition{&property, Is::at_least, between(high_of_others, low)};
+    if (high < low_of_others) return Condition{&property, Is::below, between(high, low_of_others)};
+    return std::nullopt;
+}
+
+}  // namespace
+
 std::vector<Program> twins(const FitSample& sample, const Program& program) {
     std::vector<Program> all;
     const Edit& edit = program.edits.back();
     const PortStep step = edit.entry->step;
-    const std::vector<char> mask = sample.mask(*edit.entry, edit.conditions);
-    const auto add = [&](std::vector<Condition> conditions) {
-        if (sample.mask(*edit.entry, conditions) != mask) return;
-        Program& twin = all.emplace_back(program);
-        twin.edits.back().conditions = std::move(conditions);
-    };
+    const std::vector<char> wanted = sample.mask(*edit.entry, edit.conditions);
+    if (std::ranges::find(wanted, 1) == wanted.end()) return all;
     for (std::size_t i = 0; i < edit.conditions.size(); ++i) {
-        std::vector<Condition> conditions = edit.conditions;
+        std::vector<Condition> others = edit.conditions;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+        const std::vector<char> given = sample.mask(*edit.entry, others);
         for (const FragmentProperty& property : properties()) {
-            if (step != PortStep::list && !property.is_of_pixel) continue;
-            for (const Condition& other : conditions_of(property, sample.values(property, step))) {
-                conditions[i] = other;
-                if (conditions != edit.conditions) add(conditions);
-            }
+            if (&property == edit.conditions[i].property || (step != PortStep::list && !property.is_of_pixel)) continue;
+            const auto found = separating(property, sample.values(property, step), given, wanted);
+            if (!found) continue;
+            Program& twin = all.emplace_back(program);
+            twin.edits.back().conditions[i] = *found;
         }
     }
     return all;
@@ -140,8 +178,7 @@ class Threshold {
     double cost_at(std::size_t i) {
         set(i);
         double bits = 0;
-        for (const ListPixel* pixel : pixels_)
-            bits += cost_of(value(program_, *pixel, rounding_), *pixel, lists_.unit());
+        for (const ListPixel* pixel : pixels_) bits += bits_of(residual_of(program_, *pixel, rounding_, lists_.unit()));
         return bits;
     }
 
@@ -156,6 +193,7 @@ class Threshold {
 }  // namespace
 
 void place_thresholds(const Lists& lists, const FitSample& sample, Program& program, const PortRounding& rounding) {
+    constexpr std::ptrdiff_t near = 16;  // values of the sample on either side
     Edit& edit = program.edits.back();
     for (Condition& condition : edit.conditions) {
         if (condition.is == Condition::Is::equal || condition.property->kind == FragmentProperty::Kind::flag) continue;
@@ -166,7 +204,7 @@ void place_thresholds(const Lists& lists, const FitSample& sample, Program& prog
         const auto value_at = [&](std::ptrdiff_t i) {
             return values[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, std::ssize(values) - 1))];
         };
-        Threshold{lists, program, condition, rounding}.place(value_at(at - 2), value_at(at + 1));
+        Threshold{lists, program, condition, rounding}.place(value_at(at - near), value_at(at + near));
     }
 }
 

@@ -16,7 +16,8 @@ struct Proof {
     Program program{};
     Fitness fitness{};
     bool is_whole = false, is_part = false;
-    double cost = 0;  // bits with the price of the words
+    bool is_equal = true;  // predicts the same picture as the first that is told
+    double cost = 0;       // bits with the price of the words
     // The order in which equal explanations are told: plain words first, unless they leave more pixels wrong.
     [[nodiscard]] double rank() const {
         return price(program) + std::min(2.0 * static_cast<double>(fitness.beyond), 5.0);
@@ -26,7 +27,7 @@ struct Proof {
 [[nodiscard]] Proof prove(const Lists& lists, const Program& program, const Fitness& right);
 // Moves the thresholds of a program's last edit to where the whole picture costs least.
 void place_thresholds(const Lists& lists, const FitSample& sample, Program& program, const PortRounding& rounding);
-// Programs whose last edit has other conditions that select the same fragments of the sample.
+// Programs whose last edit has another property in a condition, which selects the same fragments of the sample.
 [[nodiscard]] std::vector<Program> twins(const FitSample& sample, const Program& program);
 // True if both predict the same picture, to a code of the candidate.
 [[nodiscard]] bool predict_alike(const Lists& lists, const Program& a, const Program& b);

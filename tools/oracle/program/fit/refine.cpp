@@ -111,7 +111,7 @@ void fit_parameter(const Scorer& scorer, Trial& trial) {
     for (const double scale : {1.0, 2.0, 4.0, 8.0, 10.0, 16.0, 100.0, 1000.0, 1e4}) {
         const double rounded = std::nearbyint(best * scale) / scale;
         const double found = cost_at(rounded);
-        if (found <= cost * 1.03 + 1) {
+        if (found <= cost * 1.05 + 0.0005 * scorer.sample().cost()) {
             best = rounded;
             cost = found;
             break;

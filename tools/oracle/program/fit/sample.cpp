@@ -53,15 +53,18 @@ FitSample::FitSample(const Lists& lists, const Program& base, const PortRounding
 }
 
 void FitSample::choose(const Lists& lists, const PortRounding& rounding, const SampleSize& size) {
-    std::array<std::vector<Seen>, 4> classes;
+    std::array<std::vector<Seen>, 4> classes, tied;
     const std::array<std::size_t, 4> most{size.wrong, size.right, size.wrong_empty, size.right_empty};
     for (std::size_t i = 0; i < lists.pixels.size(); ++i) {
         const ListPixel& pixel = lists.pixels[i];
-        const Color emulated = value(base_, pixel, rounding);
-        const Color off = residual(emulated, pixel, unit_);
+        const Color off = residual_of(base_, pixel, rounding, unit_);
         const bool is_wrong = std::ranges::any_of(off, [&](double r) { return std::fabs(r) > bound_at(pixel); });
-        classes[(is_wrong ? 0u : 1u) + (pixel.fragments.empty() ? 2u : 0u)].push_back({i, emulated, bits_of(off)});
+        const std::size_t c = (is_wrong ? 0u : 1u) + (pixel.fragments.empty() ? 2u : 0u);
+        (pixel.reversed.empty() ? classes : tied)[c].push_back({i, value(base_, pixel, rounding), bits_of(off)});
     }
+    if (tied[0].size() > classes[0].size())
+        for (std::size_t c = 0; c < classes.size(); ++c)
+            classes[c].insert(classes[c].end(), tied[c].begin(), tied[c].end());
     for (std::size_t c = 0; c < classes.size(); ++c) {
         const std::vector<Seen> some = thinned(classes[c], most[c]);
         for (const Seen& seen : some)
@@ -76,6 +79,16 @@ void FitSample::choose(const Lists& lists, const PortRounding& rounding, const S
 const std::vector<double>& FitSample::values(const FragmentProperty& property, PortStep step) const {
     const auto which = static_cast<std::size_t>(&property - properties().data());
     return step == PortStep::list ? of_fragments_[which] : of_pixels_[which];
+}
+
+std::pair<double, double> FitSample::depths() const {
+    double nearest = 1, farthest = 0;
+    for (const SamplePixel& p : pixels_)
+        for (const ListFragment& f : p.pixel->fragments) {
+            nearest = std::min(nearest, f.depth);
+            farthest = std::max(farthest, f.depth);
+        }
+    return {nearest, farthest};
 }
 
 std::span<const char> FitSample::mask_at(std::size_t i, const StepEntry& entry, std::span<const char> all) const {

@@ -4,10 +4,12 @@
 // Rule     A trial's prediction is emulated(base) + exact(trial) - exact(base): rounding cancels wherever the trial
 //          changes nothing. Where it changes much that adds two roundings, so that exact(trial) alone is then scored,
 //          too, and the lesser cost counts. Pixels are weighted so that the sample stands for the picture.
-// Numbers  Covered pixels that are wrong and right, and pixels without layers that are, at even distances.
+// Numbers  Covered pixels that are wrong and right, and pixels without layers that are, at even distances. Pixels with
+//          equal depths are left out unless most wrong pixels have them.
 // Tests    tests/tools/oracle/program/found_test.cpp
 #pragma once
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "tools/oracle/program/fit/score.h"
@@ -75,10 +77,14 @@ class FitSample {
     // The mask of an edit with these conditions.
     [[nodiscard]] std::vector<char> mask(const StepEntry& entry, std::span<const Condition> conditions) const;
 
+    // The part of a mask at a pixel.
+    [[nodiscard]] std::span<const char> mask_at(std::size_t i, const StepEntry& entry, std::span<const char> all) const;
+    // The range of depths.
+    [[nodiscard]] std::pair<double, double> depths() const;
+
   private:
     void choose(const Lists& lists, const PortRounding& rounding, const SampleSize& size);
     [[nodiscard]] Color colored(const SamplePixel& pixel, const Applied& edit, const PortRounding& rounding) const;
-    [[nodiscard]] std::span<const char> mask_at(std::size_t i, const StepEntry& entry, std::span<const char> all) const;
 
     Program base_;
     double unit_ = 1, cost_ = 0;

@@ -27,6 +27,15 @@ double bits_of(const Color& r) noexcept {
     return std::nearbyint(log * 0x1p16) * 0x1p-16;
 }
 
+Color residual_of(const Program& program, const ListPixel& pixel, const PortRounding& rounding, double unit) {
+    const Color off = residual(value(program, pixel, rounding), pixel, unit);
+    if (pixel.reversed.empty()) return off;
+    ListPixel other = pixel;
+    other.fragments = pixel.reversed;
+    const Color of_other = residual(value(program, other, rounding), pixel, unit);
+    return bits_of(of_other) < bits_of(off) ? of_other : off;
+}
+
 double bound_at(const ListPixel& pixel) noexcept {
     const std::size_t layers = pixel.fragments.size();
     return layers == 0 ? 1 : std::min(5.0, static_cast<double>((layers + 1) / 2 + 1));
@@ -100,8 +109,7 @@ class Measure {
 
 Fitness measure(const Lists& lists, const Program& program, const PortRounding& rounding) {
     Measure m{rounding};
-    for (const ListPixel& pixel : lists.pixels)
-        m.add(pixel, residual(value(program, pixel, rounding), pixel, lists.unit()));
+    for (const ListPixel& pixel : lists.pixels) m.add(pixel, residual_of(program, pixel, rounding, lists.unit()));
     return m.found();
 }
 

@@ -21,6 +21,9 @@ namespace strata::oracle::program {
 [[nodiscard]] inline double cost_of(const Color& predicted, const ListPixel& pixel, double unit) noexcept {
     return bits_of(residual(predicted, pixel, unit));
 }
+// The residual of a program, of the order of equal depths that comes closer.
+[[nodiscard]] Color residual_of(const Program& program, const ListPixel& pixel, const PortRounding& rounding,
+                                double unit);
 // The largest residual that rounding explains, in codes.
 [[nodiscard]] double bound_at(const ListPixel& pixel) noexcept;
 

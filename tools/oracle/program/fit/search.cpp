@@ -188,6 +188,18 @@ class Search {
     std::uint64_t work_ = 0;
 };
 
+// The rounding under which an edit costs least.
+struct Closest {
+    const Emulation* emulation = nullptr;
+    double cost = std::numeric_limits<double>::infinity();
+};
+Closest closest_of(const FitSample& sample, const std::vector<Emulation>& emulations, const Edit& edit) {
+    Closest closest;
+    for (const Emulation& emulation : emulations)
+        if (const double cost = Scorer{sample, emulation}(edit); cost < closest.cost) closest = {&emulation, cost};
+    return closest;
+}
+
 }  // namespace
 
 std::vector<Trial> search(const Lists& lists, const Program& base, const PortRounding& rounding) {
@@ -197,19 +209,22 @@ std::vector<Trial> search(const Lists& lists, const Program& base, const PortRou
     std::vector<Trial> trials = Search{few}.run();
     Beam beam{24, 4};
     for (Trial& trial : trials) {
-        trial.cost = std::numeric_limits<double>::infinity();
-        const Emulation* closest = nullptr;
-        for (const Emulation& emulation : emulations)
-            if (const double cost = Scorer{many, emulation}(trial.edit); cost < trial.cost) {
-                trial.cost = cost;
-                closest = &emulation;
-            }
+        const Closest closest = closest_of(many, emulations, trial.edit);
+        trial.cost = closest.cost;
         if (trial.cost > 2 * beam.limit_of(8)) continue;
-        const Scorer scorer{many, *closest};
+        const Scorer scorer{many, *closest.emulation};
         if (trial.cost < beam.limit_of(3) && trial.cost > 0.01 * many.cost()) exchange_conditions(scorer, trial);
         walk_thresholds(scorer, trial);
         fit_parameter(scorer, trial);
         drop_conditions(scorer, trial);
+        beam.add(std::move(trial));
+    }
+    const auto [nearest, farthest] = many.depths();
+    for (const StepEntry* entry : entries()) {
+        if (entry->start == nullptr) continue;
+        Trial trial{.edit = {entry, entry->start(nearest, farthest), {}}};
+        fit_parameters(Scorer{many}, trial);
+        trial.cost = closest_of(many, emulations, trial.edit).cost;
         beam.add(std::move(trial));
     }
     return beam.trials();

@@ -62,6 +62,8 @@ void drop_conditions(const Scorer& scorer, Trial& trial);
 void exchange_conditions(const Scorer& scorer, Trial& trial);
 // Fits a continuous parameter, and rounds it.
 void fit_parameter(const Scorer& scorer, Trial& trial);
+// Fits all parameters of an edit by damped Gauss-Newton with weights 1 / (1 + (r / 3)^2), and rounds them.
+void fit_parameters(const Scorer& scorer, Trial& trial);
 // The number with the fewest digits between two numbers.
 [[nodiscard]] double shortest_between(double low, double high);
 

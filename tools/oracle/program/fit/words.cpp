@@ -28,7 +28,7 @@ std::string joined(const Edit& edit, bool is_of_pixel) {
 
 std::string done(const Edit& edit) {
     fmt::dynamic_format_arg_store<fmt::format_context> values;
-    for (const double p : edit.parameters) values.push_back(fmt::format("{:.4g}", p));
+    for (const double p : edit.parameters) values.push_back(fmt::format("{:.4g}", p + 0.0));  // no -0
     return fmt::vformat(edit.entry->words, values);
 }
 
@@ -59,8 +59,11 @@ std::string to_text(const Fitting& fitting) {
         const Proof& proof = fitting.found[i];
         text +=
             fmt::format("{}{}\n    {} of {} pixels are wrong then, {:.3g} bits per covered pixel instead of {:.3g}\n",
-                        i > 0 ? "  the same on this scene: " : "", describe(proof.program), proof.fitness.beyond,
-                        proof.fitness.pixels, proof.fitness.bits_per_covered(), right.bits_per_covered());
+                        i == 0           ? ""
+                        : proof.is_equal ? "  the same on this scene: "
+                                         : "  or: ",
+                        describe(proof.program), proof.fitness.beyond, proof.fitness.pixels,
+                        proof.fitness.bits_per_covered(), right.bits_per_covered());
     }
     return text;
 }

@@ -19,6 +19,15 @@ Color exchanged(const Color& color, Parameters) {
 }
 Color given(const Color&, Parameters p) { return {p[0], p[1], p[2]}; }
 
+std::vector<double> middle_grey(double, double) { return {0.5, 0.5, 0.5}; }
+Color mixed(const Color& c, Parameters p) {
+    Color made{};
+    for (std::size_t i = 0; i < 3; ++i)
+        made[i] = p[4 * i] * c[0] + p[4 * i + 1] * c[1] + p[4 * i + 2] * c[2] + p[4 * i + 3];
+    return made;
+}
+std::vector<double> identity(double, double) { return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}; }
+
 double black(double, Parameters) { return 0; }
 double white(double, Parameters) { return 1; }
 double grey(double, Parameters p) { return p[0]; }
@@ -53,7 +62,11 @@ const StepEntry backgrounds[] = {
      .parameters = factors,
      .is_continuous = true,
      .recolor = each_channel<times>},
-    {.step = PortStep::background, .words = "the background is ({}, {}, {})", .price = 24, .recolor = given},
+    {.step = PortStep::background,
+     .words = "the background is ({}, {}, {})",
+     .price = 6,
+     .start = middle_grey,
+     .recolor = given},
 };
 
 const StepEntry finishes[] = {
@@ -65,6 +78,12 @@ const StepEntry finishes[] = {
      .recolor = exchanged<2, 1, 0>},
     {.step = PortStep::finish, .words = "red and green of the picture are exchanged", .recolor = exchanged<1, 0, 2>},
     {.step = PortStep::finish, .words = "green and blue of the picture are exchanged", .recolor = exchanged<0, 2, 1>},
+    {.step = PortStep::finish,
+     .words = "the picture's red acts as {} red + {} green + {} blue + {}, green as {}, {}, {} + {}, blue as {}, {}, "
+              "{} + {}",
+     .price = 10,
+     .start = identity,
+     .recolor = mixed},
     {.step = PortStep::finish, .words = "the picture is inverted", .recolor = each_channel<inverted>},
     {.step = PortStep::finish,
      .words = "the picture is rounded to {} bits",

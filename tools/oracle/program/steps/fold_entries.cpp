@@ -181,6 +181,16 @@ Color of_halves(Stack layers, const Color& behind, const PortRounding& r, Parame
     return from_front<usual, join>(layers.first(half), back, r, p);
 }
 
+// Weights by depth: their logarithms at eight depths from p[0] to p[1], and a power of alpha.
+double by_curve(const PortLayer& layer, Parameters p) {
+    const double at = std::clamp((layer.depth - p[0]) / std::max(p[1] - p[0], 1e-9), 0.0, 1.0) * 7;
+    const double i = std::min(std::floor(at), 6.0);
+    const auto k = static_cast<std::size_t>(i) + 2;
+    return std::exp(p[k] + (at - i) * (p[k + 1] - p[k])) * std::pow(std::max(layer.alpha, 1e-9), p[10]);
+}
+std::vector<double> equal_weights(double nearest, double farthest) {
+    return {nearest, farthest, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+}
 constexpr double distances[] = {0.1, 0.2, 0.5, 1, 10, 200}, exponents[] = {1, 2, 3, 4};
 constexpr double few_bits[] = {1, 2, 3, 4, 5, 6, 7}, shares[] = {0.05, 0.1, 0.2, 0.5, 0.75}, counts[] = {1, 2, 3, 4};
 
@@ -230,6 +240,12 @@ const StepEntry table[] = {
      .parameters = exponents,
      .is_continuous = true,
      .fold = weighted<by_power>},
+    {.step = PortStep::fold,
+     .words =
+         "weighted sums: depths from {} to {} act with weights of e^{}, {}, {}, {}, {}, {}, {}, {}, times alpha^{}",
+     .price = 10,
+     .start = equal_weights,
+     .fold = weighted<by_curve>},
     {.step = PortStep::fold,
      .words = "behind the first {} layers the others are averaged",
      .price = 6,

@@ -90,6 +90,19 @@ void fade_by_depth(PortLayers& layers, const SelectedFragments& s, Parameters p)
             for (double& c : layer.color) c *= f;
     }
 }
+// A curve through five values at 0, 0.25, 0.5, 0.75 and 1.
+double on_curve(double v, Parameters p) {
+    const double at = std::clamp(v, 0.0, 1.0) * 4, i = std::min(std::floor(at), 3.0);
+    const auto k = static_cast<std::size_t>(i);
+    return p[k] + (at - i) * (p[k + 1] - p[k]);
+}
+std::vector<double> straight(double, double) { return {0, 0.25, 0.5, 0.75, 1}; }
+void mix(PortLayer& layer, Parameters p) {
+    const Color c = layer.color;
+    for (std::size_t i = 0; i < 3; ++i)
+        layer.color[i] = p[4 * i] * c[0] + p[4 * i + 1] * c[1] + p[4 * i + 2] * c[2] + p[4 * i + 3];
+}
+std::vector<double> identity(double, double) { return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}; }
 constexpr double slopes[] = {-0.5, 0.5};
 
 const StepEntry table[] = {
@@ -138,6 +151,19 @@ const StepEntry table[] = {
     {.words = "have inverted colours", .edit = each<color_by<inverted>>},
     {.words = "have colours encoded as sRGB", .edit = each<color_by<encode>>},
     {.words = "have colours decoded from sRGB", .edit = each<color_by<decode>>},
+    {.words = "have an alpha that acts as {}, {}, {}, {}, {} where it is 0, 0.25, 0.5, 0.75, 1",
+     .price = 10,
+     .start = straight,
+     .edit = each<alpha_by<on_curve>>},
+    {.words = "have colours that act as {}, {}, {}, {}, {} where they are 0, 0.25, 0.5, 0.75, 1",
+     .price = 10,
+     .start = straight,
+     .edit = each<color_by<on_curve>>},
+    {.words =
+         "have red that acts as {} red + {} green + {} blue + {}, green as {}, {}, {} + {}, blue as {}, {}, {} + {}",
+     .price = 10,
+     .start = identity,
+     .edit = each<mix>},
     {.words = "are black", .price = 3, .edit = each<color_by<zero>>},
     {.words = "are white", .price = 3, .edit = each<color_by<one>>},
     {.words = "are grey", .edit = each<make_grey>},
