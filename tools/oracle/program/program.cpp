@@ -131,13 +131,16 @@ double price_of(double parameter) {
 
 }  // namespace
 
+double price(const Edit& edit) {
+    double bits = edit.entry->price;
+    for (const double parameter : edit.parameters) bits += price_of(parameter);
+    for (const Condition& c : edit.conditions) bits += c.property->price;
+    return bits;
+}
+
 double price(const Program& program) {
     double bits = 0;
-    for (const Edit& edit : program.edits) {
-        bits += edit.entry->price;
-        for (const double parameter : edit.parameters) bits += price_of(parameter);
-        for (const Condition& c : edit.conditions) bits += c.property->price;
-    }
+    for (const Edit& edit : program.edits) bits += price(edit);
     return bits;
 }
 

@@ -87,6 +87,7 @@ void select(const Edit& edit, const ListPixel& pixel, std::vector<char>& mask);
 
 // A parameter of at most two digits after the point.
 [[nodiscard]] bool is_round(double parameter) noexcept;
+[[nodiscard]] double price(const Edit& edit);
 [[nodiscard]] double price(const Program& program);
 
 }  // namespace strata::oracle::program

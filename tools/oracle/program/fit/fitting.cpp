@@ -61,7 +61,8 @@ std::vector<Proof> alike(const Lists& lists, std::vector<Proof> proofs) {
     return told;
 }
 
-// A second edit repairs what the first one does not describe: it is a mistake of its own only if few words say it.
+// A second edit repairs what the first one does not describe: it is a mistake of its own only if few words say it,
+// and if it repairs some pixels.
 bool is_plain_pair(const Program& program) {
     const Edit &first = program.edits.front(), &second = program.edits.back();
     return second.conditions.size() <= 1 && first.conditions.size() <= 1 &&
@@ -93,7 +94,10 @@ Fitting fit(const Lists& lists) {
     } else if (whole.empty() && !part.empty()) {
         const Proof& base = std::ranges::min(part, {}, &Proof::cost);
         whole = only(search_and_prove(lists, base.program, base.fitness.rounding, right), &Proof::is_whole);
-        std::erase_if(whole, [](const Proof& p) { return !is_plain_pair(p.program); });
+        constexpr std::uint64_t few = 20;  // pixels
+        std::erase_if(whole, [&](const Proof& p) {
+            return !is_plain_pair(p.program) || base.fitness.beyond < p.fitness.beyond + few;
+        });
     }
     if (!whole.empty()) {
         fitting.state = State::explained;

@@ -17,8 +17,7 @@ double shortest_between(double low, double high) {
 }
 
 double Scorer::operator()(const Edit& edit) const {
-    const double words = price(Program{{edit}});
-    return words + (emulation_ ? sample_->emulated(edit, *emulation_) : sample_->score(edit).bits);
+    return price(edit) + (emulation_ ? sample_->emulated(edit, *emulation_) : sample_->score(edit).bits);
 }
 
 namespace {

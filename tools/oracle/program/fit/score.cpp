@@ -107,19 +107,23 @@ class Measure {
 
 }  // namespace
 
-Fitness measure(const Lists& lists, const Program& program, const PortRounding& rounding) {
+Fitness measure(const Lists& lists, const Program& program, const PortRounding& rounding, std::size_t step) {
     Measure m{rounding};
-    for (const ListPixel& pixel : lists.pixels) m.add(pixel, residual_of(program, pixel, rounding, lists.unit()));
+    for (std::size_t i = 0; i < lists.pixels.size(); i += step)
+        m.add(lists.pixels[i], residual_of(program, lists.pixels[i], rounding, lists.unit()));
     return m.found();
 }
 
 Fitness best_fitness(const Lists& lists, const Program& program) {
-    std::optional<Fitness> best;
-    for (const PortRounding& rounding : roundings(lists.format)) {
-        const Fitness f = measure(lists, program, rounding);
-        if (!best || f.bits < best->bits) best = f;
-    }
-    return *best;
+    constexpr std::size_t most = 8192, finalists = 2;
+    const std::size_t step = lists.pixels.size() <= most ? 1 : lists.pixels.size() / most | 1;
+    std::vector<Fitness> all;
+    for (const PortRounding& rounding : roundings(lists.format)) all.push_back(measure(lists, program, rounding, step));
+    std::ranges::stable_sort(all, {}, &Fitness::bits);
+    if (step == 1) return all[0];
+    all.resize(std::min(all.size(), finalists));
+    for (Fitness& f : all) f = measure(lists, program, f.rounding);
+    return std::ranges::min(all, {}, &Fitness::bits);
 }
 
 bool is_narrow(const Fitness& f) noexcept {

@@ -25,8 +25,6 @@ void Beam::add(Trial trial) {
 
 namespace {
 
-double price_of(const Edit& edit) { return price(Program{{edit}}); }
-
 enum class Among { all, pixels };
 
 // A condition with the fragments, or pixels, of the sample that meet it.
@@ -66,8 +64,8 @@ class Search {
     static constexpr std::uint64_t most_work = 200'000'000;  // layers composited in one stage
 
     void add(const Edit& edit, const Score& score) {
-        best_.add({edit, score.bits + price_of(edit)});
-        saving_.add({edit, sample_.cost() - score.saved + price_of(edit)});
+        best_.add({edit, score.bits + price(edit)});
+        saving_.add({edit, sample_.cost() - score.saved + price(edit)});
     }
     void add(const Edit& edit) { add(edit, sample_.score(edit)); }
 
@@ -78,7 +76,7 @@ class Search {
             Beam candidates{1, 1};
             for (const double p : entry->parameters) {
                 const Edit edit{entry, {p}, {}};
-                candidates.add({edit, sample_.score(edit).bits + price_of(edit)});
+                candidates.add({edit, sample_.score(edit).bits + price(edit)});
             }
             Trial trial = candidates.trials()[0];
             fit_parameter(Scorer{sample_}, trial);
@@ -114,13 +112,16 @@ class Search {
     }
 
     void try_choices(const Edit& edit, const std::vector<ConditionMask>& all) {
+        const double words = price(edit);
         for (const ConditionMask& choice : all) {
             if (work_ > most_work) return;
             work_ += sample_.fragments();
+            const WantedScore wanted{best_.limit() - words, sample_.cost() - saving_.limit() + words};
+            const Score score = sample_.score(*edit.entry, edit.parameters, choice.mask, wanted);
+            if (score.bits >= wanted.bits && score.saved <= wanted.saved) continue;
             Edit trial = edit;
             trial.conditions.push_back(choice.condition);
-            const WantedScore wanted{best_.limit(), sample_.cost() - saving_.limit()};
-            add(trial, sample_.score(*edit.entry, edit.parameters, choice.mask, wanted));
+            add(trial, score);
         }
     }
 
