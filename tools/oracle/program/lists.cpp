@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tools/oracle/fragments/sample.h"
 
@@ -34,30 +35,52 @@ void add(Lists& lists, const verdict::PixelList& list, const std::array<double, 
     }
 }
 
-// The list with every group of equal codes reversed; empty if there is none.
-std::vector<ListFragment> with_reversed_ties(std::span<const ListFragment> given) {
-    std::vector<ListFragment> other{given.begin(), given.end()};
-    bool has_ties = false;
-    for (std::size_t i = 0, end = 0; i < other.size(); i = end) {
-        end = i + 1;
-        while (end < other.size() && other[end].code == other[i].code) ++end;
-        has_ties |= end - i > 1;
-        std::reverse(other.begin() + static_cast<std::ptrdiff_t>(i), other.begin() + static_cast<std::ptrdiff_t>(end));
+// What becomes of a group of equal codes: all of it, one of it, or the MAX of each channel.
+enum class Group { given, reversed, first, last, largest_premultiplied, largest_straight };
+
+ListFragment largest_of(std::span<const ListFragment> group, bool is_straight) {
+    ListFragment made = group.front();
+    Color largest{};
+    for (const ListFragment& f : group) {
+        made.alpha = std::max(made.alpha, f.alpha);
+        for (std::size_t c = 0; c < 3; ++c) largest[c] = std::max(largest[c], f.color[c] * (is_straight ? 1 : f.alpha));
     }
-    return has_ties ? other : std::vector<ListFragment>{};
+    for (std::size_t c = 0; c < 3; ++c)
+        made.color[c] = is_straight ? largest[c] : made.alpha > 0 ? largest[c] / made.alpha : 0;
+    return made;
 }
 
-void reverse_ties(Lists& lists) {
-    std::vector<std::size_t> starts;
-    for (const ListPixel& pixel : lists.pixels) {
-        const std::vector<ListFragment> other = with_reversed_ties(pixel.fragments);
-        starts.push_back(lists.reversed.size());
-        lists.reversed.insert(lists.reversed.end(), other.begin(), other.end());
+// The list with what is left of each group, of the nearer half of the groups and of the farther.
+std::vector<ListFragment> with_groups(std::span<const ListFragment> given, Group near, Group far) {
+    std::vector<std::span<const ListFragment>> groups;
+    for (std::size_t i = 0, end = 0; i < given.size(); i = end) {
+        end = i + 1;
+        while (end < given.size() && given[end].code == given[i].code) ++end;
+        groups.push_back(given.subspan(i, end - i));
     }
-    starts.push_back(lists.reversed.size());
-    for (std::size_t i = 0; i < lists.pixels.size(); ++i)
-        lists.pixels[i].reversed =
-            std::span<const ListFragment>{lists.reversed}.subspan(starts[i], starts[i + 1] - starts[i]);
+    std::vector<ListFragment> made;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const auto group = groups[g];
+        switch (2 * g < groups.size() ? near : far) {
+            case Group::given: made.insert(made.end(), group.begin(), group.end()); break;
+            case Group::reversed: made.insert(made.end(), group.rbegin(), group.rend()); break;
+            case Group::first: made.push_back(group.front()); break;
+            case Group::last: made.push_back(group.back()); break;
+            case Group::largest_premultiplied: made.push_back(largest_of(group, false)); break;
+            case Group::largest_straight: made.push_back(largest_of(group, true)); break;
+        }
+    }
+    return made;
+}
+
+void find_ties(ListPixel& pixel) {
+    const std::span<const ListFragment> all = pixel.fragments;
+    if (std::ranges::adjacent_find(all, {}, &ListFragment::code) == all.end()) return;
+    using enum Group;
+    for (const auto& [near, far] :
+         {std::pair{reversed, reversed}, std::pair{given, reversed}, std::pair{first, first}, std::pair{last, last},
+          std::pair{largest_premultiplied, largest_straight}, std::pair{largest_premultiplied, largest_premultiplied}})
+        pixel.ties.push_back(with_groups(all, near, far));
 }
 
 void set_triangle_depths(Lists& lists) {
@@ -102,7 +125,7 @@ void complete(Lists& lists) {
     }
     settle_background(lists);
     set_triangle_depths(lists);
-    reverse_ties(lists);
+    for (ListPixel& pixel : lists.pixels) find_ties(pixel);
 }
 
 Lists lists_of(const verdict::SceneFragments& scene, const verdict::Colors& candidate) {

@@ -1,8 +1,9 @@
 // tools/oracle/program/lists.h - what a port composites: the fragments of every pixel, near to far, what is behind
 // them, and the colour that the candidate has there.
 //
-// Rule     A pixel's fragments are the visible ones by depth code. The order of equal codes is not part of the
-//          question: a pixel has both, and the one counts that comes closer.
+// Rule     A pixel's fragments are the visible ones by depth code. What a port does with equal codes is not part of the
+//          question; the list counts that comes closest: all of a group, its first, its last, or one layer by MAX, as
+//          in ties.h of the rules.
 // Numbers  `unit` is the step in which residuals are counted: one code of the candidate's format, 2^-11 of halves,
 //          2^-18 of binary32.
 // Tests    tests/tools/oracle/program/parts_test.cpp
@@ -23,6 +24,7 @@ class Colors;
 namespace strata::oracle::program {
 
 using Color = std::array<double, 3>;
+inline constexpr std::size_t tie_orders = 2;
 
 struct ListFragment {
     Color color{};  // not premultiplied
@@ -39,8 +41,10 @@ struct ListPixel {
     int x = 0, y = 0;
     std::size_t first = 0;  // fragments of all pixels before it
     std::span<const ListFragment> fragments{};
-    std::span<const ListFragment> reversed{};  // the same with equal codes in reverse order; empty: there are none
-    Color behind{};                            // the opaque surface, or the background
+    // If depth codes are equal: the list with their groups in other orders (`tie_orders` of them), then with one layer
+    // for each group.
+    std::vector<std::vector<ListFragment>> ties{};
+    Color behind{};  // the opaque surface, or the background
     bool has_opaque = false;
     Color seen{};  // the candidate's
 };
@@ -56,7 +60,7 @@ struct Lists {
 
     int width = 0, height = 0;
     PortFormat format = PortFormat::unorm8;  // of the candidate
-    std::vector<ListFragment> fragments{}, reversed{};
+    std::vector<ListFragment> fragments{};
     std::vector<ListPixel> pixels{};
     [[nodiscard]] double unit() const noexcept { return step_of(format); }
 };

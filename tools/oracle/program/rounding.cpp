@@ -34,6 +34,13 @@ void add_of_codes(std::vector<PortRounding>& all, PortFormat format) {
     all.push_back(stores);
     stores.premultiplies = true;
     all.push_back(stores);
+    // A peel stores its layers before it blends them.
+    for (const BlendForm form : {BlendForm::under, BlendForm::both_ends}) {
+        PortRounding peels = at_each_blend(form, format, format);
+        peels.layers = format;
+        peels.premultiplies = true;
+        all.push_back(peels);
+    }
     PortRounding splits = at_each_blend(BlendForm::over, format, format);
     splits.splits = true;
     all.push_back(splits);

@@ -102,7 +102,7 @@ TEST_CASE("names of properties and words of entries are unique, and a parameter 
     CHECK(wrong == 0);
 }
 
-TEST_CASE("of equal depths the order counts that comes closer, for every program") {
+TEST_CASE("of equal depths the order counts that comes closest, or the one that is kept") {
     PortScene scene{.width = 2, .height = 1, .pixels = {{}, {}}};
     scene.pixels[0] = {{.color = {1, 0, 0}, .alpha = 0.5, .depth = 0.5, .submission = 0},
                        {.color = {0, 0, 1}, .alpha = 0.5, .depth = 0.5, .submission = 1}};
@@ -111,8 +111,13 @@ TEST_CASE("of equal depths the order counts that comes closer, for every program
     const PortList reversed{scene.pixels[0].rbegin(), scene.pixels[0].rend()};
     const PortColor color = over(reversed, scene.background, as_it_is);
     const Lists lists = strata::test::lists_of(scene, {color, color}, PortFormat::exact);
-    CHECK(bits_of(residual_of({}, lists.pixels[0], {}, lists.unit())) == 0);
-    CHECK(bits_of(residual_of({}, lists.pixels[1], {}, lists.unit())) > 10);
+    CHECK(bits_of(residual_of({}, lists.pixels[0], {}, lists.unit()).off) == 0);
+    CHECK(bits_of(residual_of({}, lists.pixels[1], {}, lists.unit()).off) > 10);
+    CHECK(lists.pixels[1].ties.empty());
+    const PortColor one = over({scene.pixels[0][1]}, scene.background, as_it_is);
+    const Lists lossy = strata::test::lists_of(scene, {one, one}, PortFormat::exact);
+    CHECK(residual_of({}, lossy.pixels[0], {}, lossy.unit()).loses);
+    CHECK(bits_of(residual_of({}, lossy.pixels[0], {}, lossy.unit()).off) == 0);
 }
 
 TEST_CASE("a background between two codes is the one that is seen") {

@@ -18,7 +18,7 @@ struct Moved {
 Moved moved(const Lists& lists, const Program& program, const Fitness& fitness, const Fitness& right) {
     double wrong = 0, repaired = 0, good = 0, broken = 0;
     const auto is_beyond = [&](const Program& p, const PortRounding& r, const ListPixel& pixel) {
-        const Color off = residual_of(p, pixel, r, lists.unit());
+        const Color off = residual_of(p, pixel, r, lists.unit()).off;
         return std::ranges::any_of(off, [&](double v) { return std::fabs(v) > bound_at(pixel); });
     };
     for (const ListPixel& pixel : lists.pixels) {
@@ -178,7 +178,8 @@ class Threshold {
     double cost_at(std::size_t i) {
         set(i);
         double bits = 0;
-        for (const ListPixel* pixel : pixels_) bits += bits_of(residual_of(program_, *pixel, rounding_, lists_.unit()));
+        for (const ListPixel* pixel : pixels_)
+            bits += bits_of(residual_of(program_, *pixel, rounding_, lists_.unit()).off);
         return bits;
     }
 

@@ -57,10 +57,10 @@ void FitSample::choose(const Lists& lists, const PortRounding& rounding, const S
     const std::array<std::size_t, 4> most{size.wrong, size.right, size.wrong_empty, size.right_empty};
     for (std::size_t i = 0; i < lists.pixels.size(); ++i) {
         const ListPixel& pixel = lists.pixels[i];
-        const Color off = residual_of(base_, pixel, rounding, unit_);
+        const Color off = residual_of(base_, pixel, rounding, unit_).off;
         const bool is_wrong = std::ranges::any_of(off, [&](double r) { return std::fabs(r) > bound_at(pixel); });
         const std::size_t c = (is_wrong ? 0u : 1u) + (pixel.fragments.empty() ? 2u : 0u);
-        (pixel.reversed.empty() ? classes : tied)[c].push_back({i, value(base_, pixel, rounding), bits_of(off)});
+        (pixel.ties.empty() ? classes : tied)[c].push_back({i, value(base_, pixel, rounding), bits_of(off)});
     }
     if (tied[0].size() > classes[0].size())
         for (std::size_t c = 0; c < classes.size(); ++c)

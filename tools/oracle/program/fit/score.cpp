@@ -27,18 +27,25 @@ double bits_of(const Color& r) noexcept {
     return std::nearbyint(log * 0x1p16) * 0x1p-16;
 }
 
-Color residual_of(const Program& program, const ListPixel& pixel, const PortRounding& rounding, double unit) {
-    const Color off = residual(value(program, pixel, rounding), pixel, unit);
-    if (pixel.reversed.empty()) return off;
-    ListPixel other = pixel;
-    other.fragments = pixel.reversed;
-    const Color of_other = residual(value(program, other, rounding), pixel, unit);
-    return bits_of(of_other) < bits_of(off) ? of_other : off;
+TiedResidual residual_of(const Program& program, const ListPixel& pixel, const PortRounding& rounding, double unit) {
+    TiedResidual best{residual(value(program, pixel, rounding), pixel, unit)};
+    if (pixel.ties.empty()) return best;
+    ListPixel other{pixel.x, pixel.y, pixel.first, {}, {}, pixel.behind, pixel.has_opaque, pixel.seen};
+    double cost = bits_of(best.off);
+    for (std::size_t i = 0; i < pixel.ties.size(); ++i) {
+        other.fragments = pixel.ties[i];
+        const Color off = residual(value(program, other, rounding), pixel, unit);
+        if (!(bits_of(off) < cost)) continue;
+        cost = bits_of(off);
+        best = {off, i >= tie_orders};
+    }
+    return best;
 }
 
 double bound_at(const ListPixel& pixel) noexcept {
     const std::size_t layers = pixel.fragments.size();
-    return layers == 0 ? 1 : std::min(5.0, static_cast<double>((layers + 1) / 2 + 1));
+    constexpr double hair = 1e-3;  // of the arithmetic
+    return layers == 0 ? 1 : hair + std::min(5.0, static_cast<double>((layers + 1) / 2 + 1));
 }
 
 namespace {
@@ -73,7 +80,9 @@ class Trend {
 class Measure {
   public:
     explicit Measure(const PortRounding& rounding) { f_.rounding = rounding; }
-    void add(const ListPixel& pixel, const Color& off) {
+    void add(const ListPixel& pixel, const TiedResidual& tied) {
+        const Color& off = tied.off;
+        f_.lost_at_ties += tied.loses ? 1 : 0;
         f_.bits += bits_of(off);
         f_.pixels += 1;
         const double most = std::max({std::fabs(off[0]), std::fabs(off[1]), std::fabs(off[2])});

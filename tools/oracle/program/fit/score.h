@@ -21,9 +21,13 @@ namespace strata::oracle::program {
 [[nodiscard]] inline double cost_of(const Color& predicted, const ListPixel& pixel, double unit) noexcept {
     return bits_of(residual(predicted, pixel, unit));
 }
-// The residual of a program, of the order of equal depths that comes closer.
-[[nodiscard]] Color residual_of(const Program& program, const ListPixel& pixel, const PortRounding& rounding,
-                                double unit);
+// The residual of a program, of what a port may do with equal depths that comes closest.
+struct TiedResidual {
+    Color off{};
+    bool loses = false;  // fragments of equal depths
+};
+[[nodiscard]] TiedResidual residual_of(const Program& program, const ListPixel& pixel, const PortRounding& rounding,
+                                       double unit);
 // The largest residual that rounding explains, in codes.
 [[nodiscard]] double bound_at(const ListPixel& pixel) noexcept;
 
@@ -35,8 +39,9 @@ struct Fitness {
     double mean = 0;   // largest of a channel, in codes, over covered pixels
     double worst = 0;  // largest residual in codes
     std::uint64_t pixels = 0, covered = 0;
-    std::uint64_t beyond = 0;      // pixels beyond `bound_at`
-    std::uint64_t beyond_one = 0;  // pixels off by more than one code
+    std::uint64_t beyond = 0;        // pixels beyond `bound_at`
+    std::uint64_t lost_at_ties = 0;  // pixels where a fragment of several at one depth is lost
+    std::uint64_t beyond_one = 0;    // pixels off by more than one code
     [[nodiscard]] double bits_per_covered() const noexcept {
         return bits / static_cast<double>(covered > 0 ? covered : pixels);
     }

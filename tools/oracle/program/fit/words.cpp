@@ -51,7 +51,11 @@ std::string to_text(const Fitting& fitting) {
     using State = Fitting::State;
     const Fitness& right = fitting.right;
     if (fitting.is_right())
-        return fmt::format("right: at most {:.2g} codes from compositing {}\n", right.worst, describe(right.rounding));
+        return fmt::format(
+            "right: at most {:.2g} codes from compositing {}{}\n", right.worst, describe(right.rounding),
+            right.lost_at_ties == 0
+                ? ""
+                : fmt::format("; of fragments at one depth some are lost at {} pixels", right.lost_at_ties));
     if (fitting.found.empty())
         return fmt::format("wrong: {} of {} pixels, and nothing explains them\n", right.beyond, right.pixels);
     std::string text = fitting.state == State::explained ? "wrong: " : "wrong, explained in part: ";
