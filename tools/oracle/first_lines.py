@@ -1,17 +1,20 @@
 #!/usr/bin/env python3
 """Prints a table of pictures whose truth is known and of the first lines of `compare` and `diagnose` about them.
 
-    first_lines.py --build build/release [--cases FOLDER] [--every N] [-o FILE.md]
+    first_lines.py --build build/release [--cases FOLDER] [--every N] [--sample N --seed S] [-o FILE.md]
 
 The pictures: those that the program draws with a mistake of its catalogue, on the first scene of the suite that shows it (--every N takes every Nth
 mistake); right pictures of every profile; and, with --cases, those of first_lines.json, whose truth is stated there as texts that the first lines
 must or must not contain. A first line is false if it calls a right picture wrong, or a wrong one right although a pixel is off by more than 5 codes, or if
 it names another mistake. Exit status 1 if one is false, or if compare and diagnose contradict each other.
+
+--sample N takes N pictures by --seed. With -o rows are appended as they end, and a later call does not judge the pictures again whose rows FILE.md has.
 """
 import argparse
 import concurrent.futures
 import json
 import pathlib
+import random
 import re
 import shlex
 import subprocess
@@ -19,7 +22,7 @@ import sys
 import tempfile
 
 # Mistakes that only decide ties of depth or of edges, where right ports differ: a verdict may call them right.
-OPEN = {"ties_of_rows", "ties_of_columns", "order_reversed", "last_of_equals", "snapped_otherwise", "snapped_to_256ths"}
+OPEN = {"ties_of_rows", "ties_of_columns", "order_reversed", "last_of_equals", "snapped_otherwise", "snapped_to_256ths", "snapped_to_16ths"}
 MOST_CODES = 5  # a picture that is off by no more may be right by rounding
 LONG = re.compile(r"^wrong: one of \d+ mistakes")
 
@@ -82,8 +85,6 @@ def faults(row, said):
     return wrong
 
 
-
-
 def of_catalogue(strata, folder, every):
     """A row for every Nth mistake, on the first scene of the suite that shows it."""
     _, out, _ = run([strata, "diagnose", "--list", "--json"])
@@ -130,11 +131,42 @@ def of_cases(folder):
         yield Row(f"case: {case['folder']}/{case['picture']}", scene, place / case["picture"], case["truth"], words, case.get("algorithm", "dual"))
 
 
+class Table:
+    """Rows of a Markdown table, written at once to the file, or to standard output. Rows that the file has are kept."""
+    HEAD = "| picture | truth | compare | diagnose | false |\n|---|---|---|---|---|\n"
+
+    def __init__(self, file):
+        self.names, self.wrong, self.file = set(), 0, file
+        if file and file.is_file():
+            for line in file.read_text().splitlines()[2:]:
+                cells = line.strip("| ").split(" | ")
+                self.names.add(cells[0])
+                self.wrong += not line.endswith("|  |")
+        else:
+            self.write(self.HEAD)
+
+    def write(self, text):
+        if not self.file:
+            return print(text, end="", flush=True)
+        with self.file.open("a") as out:
+            out.write(text)
+
+    def add(self, row, said):
+        found = faults(row, said)
+        self.names.add(row.name)
+        self.wrong += bool(found)
+        truth = row.truth.get("is", row.truth.get("name", row.truth["kind"]))
+        cells = (row.name, truth, said["compare"][1], said["diagnose"][1], "; ".join(found))
+        self.write("| " + " | ".join(cell.replace("|", "/") for cell in cells) + " |\n")
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--build", required=True, type=pathlib.Path)
     parser.add_argument("--cases", type=pathlib.Path)
     parser.add_argument("--every", type=int, default=1)
+    parser.add_argument("--sample", type=int, metavar="N")
+    parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("-o", "--output", type=pathlib.Path)
     options = parser.parse_args()
@@ -144,20 +176,15 @@ def main():
         rows = [*of_profiles(strata, folder), *of_catalogue(strata, folder, options.every)]
         if options.cases:
             rows += of_cases(options.cases.resolve())
+        if options.sample:
+            rows = random.Random(options.seed).sample(rows, min(options.sample, len(rows)))
+        table = Table(options.output)
+        rows = [row for row in rows if row.name not in table.names]
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-            said = list(pool.map(lambda row: row.said(strata), rows))
-    lines = ["| picture | truth | compare | diagnose | false |", "|---|---|---|---|---|"]
-    wrong = 0
-    for row, of_row in zip(rows, said):
-        found = faults(row, of_row)
-        wrong += bool(found)
-        truth = row.truth.get("is", row.truth.get("name", row.truth["kind"]))
-        lines.append("| " + " | ".join(cell.replace("|", "/") for cell in (row.name, truth, of_row["compare"][1], of_row["diagnose"][1], "; ".join(found))) + " |")
-    text = "\n".join(lines) + f"\n\n{len(rows)} pictures, {wrong} with a false first line\n"
-    if options.output:
-        options.output.write_text(text)
-    print(text if not options.output else text.split("\n")[-2])
-    return 1 if wrong else 0
+            for done in concurrent.futures.as_completed([pool.submit(lambda row=row: (row, row.said(strata))) for row in rows]):
+                table.add(*done.result())
+    print(f"{len(table.names)} pictures, {table.wrong} with a false first line")
+    return 1 if table.wrong else 0
 
 
 if __name__ == "__main__":
