@@ -2,10 +2,8 @@
 // and file access, and the functions of Highway that one instruction set needs. The image module is replaced by an
 // error message.
 #define TINYGLTF_IMPLEMENTATION
-#define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
-#define TINYGLTF_NO_INCLUDE_JSON
 #include <tiny_gltf.h>
 
 #include <cstdlib>
