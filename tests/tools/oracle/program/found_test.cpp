@@ -220,3 +220,24 @@ TEST_CASE("two mistakes are told together if few words say each", "[slow]") {
     CHECK(text.find("the background is white") != text.npos);
     CHECK(text.find("with depth at least 0.8 are left out") != text.npos);
 }
+
+TEST_CASE("a large picture is searched on some pixels and proved on all", "[slow]") {
+    PortScene scene = random_scene(17);
+    const PortScene tile = scene;
+    scene.width = 600;
+    scene.height = 160;
+    scene.pixels.clear();
+    for (int y = 0; y < scene.height; ++y)
+        for (int x = 0; x < scene.width; ++x)
+            scene.pixels.push_back(
+                tile.pixels[static_cast<std::size_t>(y % tile.height * tile.width + x % tile.width)]);
+    PortPicture picture = painted(scene, changed(operations[0], by_fragment[0]));
+    const std::string found = judged(scene, picture);
+    INFO(found);
+    CHECK(found.starts_with("wrong: fragments with depth at least 0."));
+    CHECK(found.find("are left out\n    0 of 96000 pixels are wrong then") != found.npos);
+    CHECK(judged(scene, painted(scene, unchanged)).starts_with("right: "));
+    // Two in a thousand pixels more are too many.
+    for (std::size_t i = 0; i < picture.size(); i += 300) picture[i] = {0, 1, 0};
+    CHECK_FALSE(judged(scene, picture).starts_with("wrong: fragments"));
+}

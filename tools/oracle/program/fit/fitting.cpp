@@ -74,14 +74,15 @@ std::vector<Proof> only(std::vector<Proof> proofs, bool Proof::*is) {
     return proofs;
 }
 
-}  // namespace
+// Right, and described in few bits: nothing else is asked.
+bool is_plainly_right(const Fitness& right) { return is_narrow(right) && right.bits_per_covered() <= 1.2; }
 
-Fitting fit(const Lists& lists) {
+Fitting fitted(const Lists& lists) {
     using State = Fitting::State;
     Fitting fitting{.right = best_fitness(lists, {})};
     const Fitness& right = fitting.right;
     const bool may_be_right = is_narrow(right);
-    if (may_be_right && right.bits_per_covered() <= 1.2) {
+    if (is_plainly_right(right)) {
         fitting.state = State::right;
         return fitting;
     }
@@ -109,6 +110,48 @@ Fitting fit(const Lists& lists) {
         fitting.found = alike(lists, std::move(part));
     }
     return fitting;
+}
+
+// About `most` pixels of a picture, at even distances. They refer to the fragments of the given lists.
+Lists thinned(const Lists& lists, std::size_t most) {
+    Lists few;
+    few.width = lists.width;
+    few.height = lists.height;
+    few.format = lists.format;
+    const std::size_t step = lists.pixels.size() / most | 1;
+    for (std::size_t i = 0; i < lists.pixels.size(); i += step) few.pixels.push_back(lists.pixels[i]);
+    return few;
+}
+
+// What was found on some pixels, proved on all.
+Fitting proved(const Lists& lists, const Fitting& of_few, const Fitness& right) {
+    using State = Fitting::State;
+    Fitting fitting{.right = right};
+    for (const Proof& found : of_few.found) {
+        Proof proof = prove(lists, found.program, right);
+        proof.is_equal = found.is_equal;
+        if (proof.is_whole || proof.is_part) fitting.found.push_back(std::move(proof));
+    }
+    if (std::ranges::any_of(fitting.found, &Proof::is_whole)) {
+        fitting.state = State::explained;
+        std::erase_if(fitting.found, [](const Proof& p) { return !p.is_whole; });
+    } else if (is_narrow(right)) {
+        fitting.state = State::right;
+        fitting.found.clear();
+    } else if (!fitting.found.empty()) {
+        fitting.state = State::explained_in_part;
+    }
+    return fitting;
+}
+
+}  // namespace
+
+Fitting fit(const Lists& lists) {
+    constexpr std::size_t most = 32768;
+    if (lists.pixels.size() <= 2 * most) return fitted(lists);
+    const Fitness right = best_fitness(lists, {});
+    if (is_plainly_right(right)) return {.state = Fitting::State::right, .right = right};
+    return proved(lists, fitted(thinned(lists, most)), right);
 }
 
 }  // namespace strata::oracle::program
