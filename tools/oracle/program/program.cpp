@@ -126,7 +126,7 @@ double price_of(double parameter) {
     const auto is_whole = [&](double scale) {
         return std::fabs(parameter * scale - std::nearbyint(parameter * scale)) < 1e-9 * scale;
     };
-    return is_whole(8) || is_whole(10) ? 4 : is_round(parameter) ? 8 : 14;
+    return is_whole(8) || is_whole(10) ? 4 : is_whole(16) || is_round(parameter) ? 8 : 14;
 }
 
 }  // namespace

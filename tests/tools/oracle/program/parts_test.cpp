@@ -160,3 +160,13 @@ TEST_CASE("the number with the fewest digits above one and up to another is take
     CHECK(shortest_between(0.6, 0.6003) > 0.6);
     CHECK(shortest_between(0.1234, 0.1236) == 0.1235);
 }
+
+TEST_CASE("numbers of few digits cost less, in tenths and in sixteenths") {
+    const auto price_of = [](double parameter) {
+        return price(Edit{.entry = &value_entries()[0], .parameters = {parameter}});
+    };
+    CHECK(price_of(0.5) == price_of(0.7));
+    CHECK(price_of(0.5) < price_of(0.93));
+    CHECK(price_of(0.9375) == price_of(0.93));
+    CHECK(price_of(0.93) < price_of(1.979));
+}
