@@ -2,6 +2,7 @@
 #include "peeling/as_shown.h"
 
 #include <algorithm>
+#include <span>
 
 #include "peeling/audit/audit_result.h"
 #include "peeling/audit/region_trace.h"
@@ -21,7 +22,7 @@ void turn_keys(Image& image) {
 
 // Swaps the first row with the last, and so on.
 template <class Values>
-void exchange_rows(Values& values, int height) {
+void exchange_rows(Values&& values, int height) {
     if (height <= 0) return;
     const std::size_t row = values.size() / static_cast<std::size_t>(height);
     const auto at = [&](int y) {
@@ -41,6 +42,7 @@ void AsShown::turn(Image& image) const {
 void AsShown::turn(pipeline::FrameResult& result) const {
     turn(result.color);
     turn(result.depth);
+    for (Image& sample : result.samples) turn(sample);
     for (pipeline::PeeledLayer& layer : result.layers) {
         if (turns_rows_) exchange_rows(layer.color.codes, layer.color.height);
         turn(layer.depth);
@@ -65,16 +67,20 @@ void AsShown::turn(FrameFragments& fragments) const {
     }
     if (turns_keys_)
         for (std::uint32_t& code : fragments.opaque) code = rasterizer::depth_key(code);
-    if (turns_rows_) exchange_rows(fragments.opaque, height_);
+    const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    for (std::size_t first = 0; turns_rows_ && first < fragments.opaque.size(); first += pixels)
+        exchange_rows(std::span{fragments.opaque}.subspan(first, pixels), height_);
 }
 
 void AsShown::turn(std::vector<RegionTrace>& traces) const {
     if (!turns_rows_) return;
     for (RegionTrace& trace : traces) {
         const auto width = static_cast<std::uint32_t>(trace.rect.width());
-        const auto last = static_cast<std::uint32_t>(trace.rect.height()) - 1;
-        for (pipeline::TraceEntry& entry : trace.entries)
-            entry.pixel = (last - entry.pixel / width) * width + entry.pixel % width;
+        const auto height = static_cast<std::uint32_t>(trace.rect.height());
+        for (pipeline::TraceEntry& entry : trace.entries) {
+            const std::uint32_t row = entry.pixel / width, sample = row / height;
+            entry.pixel = (sample * height + height - 1 - row % height) * width + entry.pixel % width;
+        }
         trace.rect = rect(trace.rect);
     }
 }

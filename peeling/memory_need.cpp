@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "peeling/registry.h"
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "pipeline/device/profile.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_shortcuts.h"
@@ -34,14 +34,14 @@ struct Density {
     double mean = 0, most = 0;
 };
 
-// Coverage of the rehearsal frame's pixels; its tile may run in parts, and a part more than once.
+// Coverage of the rehearsal frame's pixels at sample 0; its tile may run in parts, and a part more than once.
 class Coverage {
   public:
     void put(Region& region) {
-        std::vector<std::uint32_t> own(region.rect().area());
+        std::vector<std::uint32_t> own(region.elements());
         RegionShortcuts{region}.count_coverage(own);
         const auto width = static_cast<std::size_t>(region.rect().width());
-        for (std::size_t i = 0; i < own.size(); ++i)
+        for (std::size_t i = 0; i < region.rect().area(); ++i)
             fragments_[(static_cast<std::size_t>(region.rect().y0) + i / width) * side +
                        static_cast<std::size_t>(region.rect().x0) + i % width] = own[i];
     }
@@ -111,18 +111,17 @@ std::uint64_t fragment_bytes(const Rehearsal& found, std::uint64_t pixels, std::
 }  // namespace
 
 MemoryNeed memory_need(const DrawList& list, const View& view, const DeviceProfile& profile,
-                       const RenderOptions& options, const Algorithm& algorithm, const Multisampling& sampling) {
-    RenderOptions rehearsed = options;
-    const bool joint = is_joint(algorithm, options, sampling);
-    if (joint) rehearsed.execution = Execution::literal;
-    const Rehearsal found = rehearse(list, view, profile, rehearsed, algorithm);
+                       const RenderOptions& options, const Algorithm& algorithm) {
+    const Rehearsal found = rehearse(list, view, profile, options, algorithm);
     MemoryNeed need;
     if (found.is_refused) return need;
-    const auto samples = static_cast<std::uint64_t>(sampling.samples), frames = joint ? samples : 1;
+    const auto samples = static_cast<std::uint64_t>(options.sampling.samples);
     const std::uint64_t pixels =
         std::uint64_t{static_cast<unsigned>(options.width)} * static_cast<unsigned>(options.height);
     const auto channels = static_cast<std::uint64_t>(found.channels);
-    need.pictures = pixels * word_bytes * (channels + (options.nearest_depth ? 1 : 0));
+    const bool keeps_samples = samples > 1 && (options.audit || options.keep_samples);
+    need.pictures = pixels * word_bytes *
+                    (channels * (keeps_samples ? samples + 1 : 1) + (options.nearest_depth ? 1 : 0));
 
     const auto tile = static_cast<std::uint64_t>(tile_size_of(options, algorithm));
     const std::uint64_t region = found.is_tiled ? tile * tile : pixels;
@@ -130,13 +129,13 @@ MemoryNeed memory_need(const DrawList& list, const View& view, const DeviceProfi
         found.is_tiled ? std::min<std::uint64_t>(static_cast<std::uint64_t>(thread_count(options.threads)),
                                                  (pixels + region - 1) / region)
                        : 1;
-    need.targets = at_once * region * word_bytes * (found.target_words + (options.nearest_depth ? 1 : 0));
+    need.targets = at_once * samples * region * word_bytes * (found.target_words + (options.nearest_depth ? 1 : 0));
     // The layers of the regions, and those of the frame that are assembled from them.
     need.layers = 2 * found.layers * pixels * word_bytes * (channels + 1);
 
     const std::uint64_t list_limit = std::max(options.fragment_memory, least_audit_memory);
     const auto kept = [&](std::uint64_t bytes_each, std::uint64_t limit) {
-        return fragment_bytes(found, frames * at_once * region, bytes_each, limit);
+        return fragment_bytes(found, samples * at_once * region, bytes_each, limit);
     };
     if (options.audit) need.fragments += kept(audited_bytes, list_limit);
     if (algorithm.is_oracle) need.fragments += kept(listed_bytes, list_limit);
@@ -145,10 +144,6 @@ MemoryNeed memory_need(const DrawList& list, const View& view, const DeviceProfi
         const Mesh& mesh = list.meshes[instance.mesh];
         need.triangles += mesh.positions.size() * vertex_bytes + mesh.indices.size() / 3 * triangle_bytes;
     }
-    if (samples == 1) return need;
-    need.pictures *= frames + 1;
-    need.layers *= frames + 1;
-    need.targets *= frames;
     need.triangles *= samples;
     return need;
 }

@@ -28,11 +28,11 @@ struct MemoryNeed {  // in bytes
     friend bool operator==(const MemoryNeed&, const MemoryNeed&) = default;
 };
 
-// The memory that SampledRenderer::render needs for these arguments in addition to the list itself; all 0 if the
+// The memory that Renderer::render needs for these arguments in addition to the list itself; all 0 if the
 // profile rejects the frame. The lists of every sample are kept, but only one image of a sample and the sum; of samples
 // that load one another, the frames exist together. Throws InputError as Renderer does.
 [[nodiscard]] MemoryNeed memory_need(const pipeline::DrawList& list, const pipeline::View& view,
                                      const pipeline::DeviceProfile& profile, const RenderOptions& options,
-                                     const Algorithm& algorithm, const Multisampling& sampling = {});
+                                     const Algorithm& algorithm);
 
 }  // namespace strata::peeling

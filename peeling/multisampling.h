@@ -3,7 +3,7 @@
 // Source   pipeline/reference/fragment-stages.md 13
 #pragma once
 #include "pipeline/formats/resolve.h"
-#include "pipeline/frame/sample_loads.h"
+#include "pipeline/frame/frame.h"
 
 namespace strata::peeling {
 
@@ -13,8 +13,7 @@ struct Multisampling {
     pipeline::Resolve resolve = pipeline::Resolve::box;
     pipeline::LoadedSample loads = pipeline::LoadedSample::own;       // of geometry passes
     pipeline::LoadedSample composites = pipeline::LoadedSample::own;  // of full-screen passes
-    // Loads of another sample need the frames of all samples together, in literal execution.
-    [[nodiscard]] bool is_joint() const noexcept {
+    [[nodiscard]] bool loads_others() const noexcept {
         return samples > 1 && (loads != pipeline::LoadedSample::own || composites != pipeline::LoadedSample::own);
     }
 };

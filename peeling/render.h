@@ -4,8 +4,9 @@
 // Rule     Options that are invalid on every profile throw InputError. A combination that this profile lacks gives a
 //          refusal that names the feature, checked in the order of pipeline/reference/devices.md 9.2. Defaults are
 //          those of devices.md 11. Kernels run on the instruction set that the options name, in the calling thread and
-//          in the workers.
-// Tests    tests/peeling/comparison_test.cpp, frame/refusals_test.cpp
+//          in the workers. With several samples per pixel the picture and the layers are resolved, and depth is the
+//          nearest of the samples; counts are sums over the samples.
+// Tests    tests/peeling/comparison_test.cpp, frame/refusals_test.cpp, frame/samples_test.cpp
 #pragma once
 #include <functional>
 #include <memory>
@@ -48,8 +49,12 @@ struct RenderResult {
 };
 
 struct FrameFragments {
-    std::vector<pipeline::CapturedFragment> all;  // in submission order; `pixel` is row-major in the frame
-    std::vector<std::uint32_t> opaque;            // per pixel: the opaque surface's depth in the algorithm's key
+    // Sample by sample, each in submission order; `pixel` is row-major in the frame.
+    std::vector<pipeline::CapturedFragment> all;
+    std::vector<std::uint32_t> opaque;  // per pixel of each sample: the opaque surface's depth in the algorithm's key
+    // Those of one sample.
+    [[nodiscard]] FrameFragments of_sample(std::size_t sample) const;
+    std::size_t samples = 1;
     static constexpr std::uint64_t bytes_per_fragment = 64;  // per fragment, including the copy that the file writer
                                                              // makes
 };
@@ -82,11 +87,6 @@ class Renderer {
     // Every fragment of the frame, with key and colour, as written by `strata layers --deep`. Throws Refused, and
     // InputError if the fragments take more than the audit's memory.
     [[nodiscard]] FrameFragments fragments(const Algorithm& algorithm);
-
-    // The fragments of the deepest pixel if the frame has a limit of passes that depends on them, else 0. The limit is
-    // then computed from `deepest` instead: that of all samples, so that all have the same limit.
-    [[nodiscard]] int limiting_depth(const Algorithm& algorithm);
-    void set_limiting_depth(int deepest);
 
     [[nodiscard]] pipeline::DepthFormat depth_format() const noexcept;
     [[nodiscard]] pipeline::Format color_format() const noexcept;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "peeling/multisampling.h"
 #include "peeling/programs/algorithm_options.h"
 #include "peeling/sort.h"
 #include "pipeline/device/vertex_path.h"
@@ -35,7 +36,7 @@ struct VertexPaths {
 };
 
 // The result's bits depend on all fields except execution, fragment_memory, tile_size, threads, simd and effects.
-// audit, keep_layers and nearest_depth add results without changing the image.
+// audit, keep_layers, keep_samples and nearest_depth add results without changing the image.
 struct RenderOptions {
     int width = 1024, height = 1024;
     std::optional<pipeline::DepthFormat> depth{};           // default: d32f where the profile has it, else d24
@@ -69,6 +70,7 @@ struct RenderOptions {
     AlgorithmOptions algorithm{};  // options of single algorithms
     bool counters = false;         // count fragments by outcome, and bytes: the frame then runs literally
     bool keep_layers = false;
+    bool keep_samples = false;     // the picture of every sample
     bool audit = true;          // order_errors and the other comparisons with a_buffer
     bool nearest_depth = true;  // also render the depth image
     // The viewport's corner on its surface, in pixels; positions are translated by it exactly.
@@ -76,6 +78,8 @@ struct RenderOptions {
     // Conventions as the image shows them; raster_state.h converts them to those of memory. The viewport is set from
     // width, height and window_origin.
     rasterizer::RasterState raster{};
+    // With one sample, raster.sample is its point, and without that fragments are evaluated at the pixel's centre.
+    Multisampling sampling{};
     const pipeline::VertexAlteration* vertex_alteration = nullptr;  // must outlive the renderer; may be null
 };
 

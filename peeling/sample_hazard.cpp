@@ -12,7 +12,6 @@
 #include "peeling/audit/region_trace.h"
 #include "peeling/invariance.h"
 #include "pipeline/device/sample_points.h"
-#include "pipeline/formats/resolve.h"
 
 namespace strata::peeling {
 
@@ -27,12 +26,14 @@ struct HazardInput {
     const DeviceProfile& profile;
     const RenderOptions& options;
     const Algorithm& algorithm;
-    const Multisampling& multisampling;
+
+    [[nodiscard]] std::size_t samples() const noexcept { return static_cast<std::size_t>(options.sampling.samples); }
 
     [[nodiscard]] FrameFragments fragments(std::size_t sample, rasterizer::Interpolation interpolation) const {
         RenderOptions own = options;
         own.raster.interpolation = interpolation;
-        set_sample(own.raster, profile.sample_positions, multisampling.samples, sample);
+        set_sample(own.raster, profile.sample_positions, options.sampling.samples, sample);
+        own.sampling = {};
         Renderer renderer{list, view, profile, own};
         return keyed(renderer.fragments(algorithm), algorithm.key);
     }
@@ -65,6 +66,21 @@ SampleEdge edge_of(const std::vector<Primitives>& samples, std::size_t pixel) {
         if (sample[pixel] != samples[0][pixel]) kind = SampleEdge::inner_edge;
     }
     return kind;
+}
+
+// The traces of one sample, as of a frame of that sample alone.
+std::vector<RegionTrace> traces_of(const std::vector<RegionTrace>& traces, std::size_t sample) {
+    std::vector<RegionTrace> own;
+    for (const RegionTrace& trace : traces) {
+        const std::size_t area = trace.rect.area();
+        RegionTrace& kept = own.emplace_back(trace.rect);
+        for (TraceEntry entry : trace.entries) {
+            if (entry.pixel / area != sample) continue;
+            entry.pixel = static_cast<std::uint32_t>(entry.pixel % area);
+            kept.entries.push_back(entry);
+        }
+    }
+    return own;
 }
 
 // Without all but the first of the fragments that tie at a depth: an algorithm may composite each of them, and a layer
@@ -150,45 +166,41 @@ std::uint64_t program_count(const std::vector<Primitives>& samples, bool is_once
 }  // namespace
 
 std::vector<SampleEdge> sample_edges(const DrawList& list, const View& view, const DeviceProfile& profile,
-                                     const RenderOptions& options, const Algorithm& algorithm,
-                                     const Multisampling& multisampling) {
-    const HazardInput input{list, view, profile, options, algorithm, multisampling};
+                                     const RenderOptions& options, const Algorithm& algorithm) {
+    const HazardInput input{list, view, profile, options, algorithm};
     const std::size_t pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
     std::vector<Primitives> primitives;
-    for (int s = 0; s < multisampling.samples; ++s)
-        primitives.push_back(primitives_of(layers_of(input, static_cast<std::size_t>(s)), pixels));
+    for (std::size_t s = 0; s < input.samples(); ++s)
+        primitives.push_back(primitives_of(layers_of(input, s), pixels));
     std::vector<SampleEdge> edges(pixels);
     for (std::size_t p = 0; p < pixels; ++p) edges[p] = edge_of(primitives, p);
     return edges;
 }
 
 SampleHazard measure_samples(const DrawList& list, const View& view, const DeviceProfile& profile,
-                             const RenderOptions& options, const Algorithm& algorithm,
-                             const Multisampling& multisampling) {
-    const HazardInput input{list, view, profile, options, algorithm, multisampling};
+                             const RenderOptions& options, const Algorithm& algorithm) {
+    const HazardInput input{list, view, profile, options, algorithm};
     SampleHazard hazard;
-    if (multisampling.is_joint() && algorithm.traces_own_targets) {
+    if (options.sampling.loads_others() && algorithm.traces_own_targets) {
         hazard.refusal = Refusal{"layer counts for " + algorithm.name + " when it loads another sample", "",
                                  "use dual_independent, which compares in the same way"};
         return hazard;
     }
-    SampledRenderer renderer{list, view, profile, options, multisampling};
-    std::vector<std::vector<RegionTrace>> traces;
-    std::vector<RenderResult> results = renderer.render_traced(algorithm, traces);
-    for (const RenderResult& result : results)
-        if (result.refusal) hazard.refusal = result.refusal;
+    Renderer renderer{list, view, profile, options};
+    std::vector<RegionTrace> traces;
+    RenderResult result = renderer.render_traced(algorithm, traces);
+    hazard.refusal = result.refusal;
     if (hazard.refusal) return hazard;
+    hazard.passes = result.frame.passes.geometry;
+    hazard.picture = std::move(result.frame.color);
     std::vector<Primitives> primitives;
     std::vector<std::vector<bool>> wrong;
-    ColorResolve resolve{multisampling.samples, profile.resolve, profile.color_rounding()};
     const std::size_t pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
     int limit = 0;
-    for (std::size_t s = 0; s < results.size(); ++s) {
+    for (std::size_t s = 0; s < input.samples(); ++s) {
         const std::vector<LayerFragment> layers = layers_of(input, s);
         primitives.push_back(primitives_of(layers, pixels));
-        wrong.push_back(add_sample(hazard, input, layers, without_ties(std::move(traces[s]))));
-        resolve.add(results[s].frame.color);
-        hazard.passes = std::max(hazard.passes, results[s].frame.passes.geometry);
+        wrong.push_back(add_sample(hazard, input, layers, without_ties(traces_of(traces, s))));
         for (const auto& pixel : primitives.back()) limit = std::max(limit, 2 * static_cast<int>(pixel.size()) + 2);
     }
     for (std::size_t p = 0; p < pixels; ++p) {
@@ -203,7 +215,6 @@ SampleHazard measure_samples(const DrawList& list, const View& view, const Devic
     }
     hazard.programs = program_count(primitives, options.raster.interpolation != rasterizer::Interpolation::sample);
     hazard.ended = hazard.passes < limit;
-    hazard.picture = std::move(resolve).picture();
     return hazard;
 }
 

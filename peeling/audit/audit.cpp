@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,7 +15,6 @@
 #include "peeling/programs/fragment_lists.h"
 #include "pipeline/fragments/tile_parts.h"
 #include "pipeline/frame/effects.h"
-#include "pipeline/frame/sample_group.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shortcuts.h"
@@ -28,8 +29,10 @@ using rasterizer::Rect;
 
 namespace in_parts {
 
-// A region, or some rows of it, or part of a row.
-using Part = RegionArea;
+// A region, or some rows of it, or part of a row: of all samples, or of one.
+struct Part : RegionArea {
+    std::optional<std::size_t> sample{};
+};
 
 // The results for some parts of the frame, and the parts that did not fit into the memory.
 struct Looked {
@@ -54,11 +57,9 @@ void move(PixelCount& count, int dx, int dy) {
     count.first_y += dy;
 }
 
-// The requested sum is what this pixel's fragment lists need, doubled because traces have the other half, for each of
-// the samples.
-[[noreturn]] void throw_too_deep(const Part& pixel, std::uint32_t fragments, std::uint64_t bytes, int samples) {
-    const std::uint64_t list_bytes =
-        fragments * AuditMemory::bytes_per_fragment * 2 * static_cast<std::uint64_t>(samples);
+// The requested sum is what this pixel's fragment lists need, doubled because traces have the other half.
+[[noreturn]] void throw_too_deep(const Part& pixel, std::uint32_t fragments, std::uint64_t bytes) {
+    const std::uint64_t list_bytes = fragments * AuditMemory::bytes_per_fragment * 2;
     const std::uint64_t needed = list_bytes > bytes ? list_bytes : 2 * bytes;  // the length of the trace is not known
     throw InputError("audit", "--fragment-memory",
                      "at least " + std::to_string(needed) + " bytes for the audit of pixel (" +
@@ -67,29 +68,18 @@ void move(PixelCount& count, int dx, int dy) {
                      std::to_string(bytes));
 }
 
-[[noreturn]] void throw_samples_too_large(std::uint64_t needed, const std::string& what, std::uint64_t bytes) {
-    throw InputError("audit", "--fragment-memory",
-                     "at least " + std::to_string(needed) + " bytes for the audit of " + what +
-                         ", because samples that load one another are audited together, or --no-audit, or a smaller "
-                         "--size",
-                     std::to_string(bytes));
+// The picture of a sample, whose pixels the audit compares.
+const Image& picture_of(const FrameResult& result, std::size_t sample) {
+    return result.samples.empty() ? result.color : result.samples[sample];
 }
 
 }  // namespace
-
-std::uint64_t trace_bytes_of_sample(const SampleLoads& samples, const PreparedDraw& list, std::uint64_t bytes) {
-    const std::uint64_t own = fragment_count(list), all = samples.group->sum(own);
-    if (all * sizeof(TraceEntry) > bytes / 2)
-        throw_samples_too_large(2 * all * sizeof(TraceEntry), std::to_string(all) + " fragments", bytes);
-    return bytes / 2 - (all - own) * sizeof(TraceEntry);
-}
 
 struct Audit::Impl {
     const Frame& frame;
     const Body& body;
     const Algorithm& algorithm;
-    std::uint64_t bytes;  // of all samples
-    SampleLoads samples;
+    std::uint64_t bytes;
     AuditMemory shared, alone;  // for one of all workers, and for a worker that runs alone
     int threads;
     Frame still;               // the frame without passes and trace, for reading its fragments
@@ -99,14 +89,13 @@ struct Audit::Impl {
     std::vector<RegionArea> places{};  // the regions; the tiles of a frame that is one region
     std::vector<Looked> found_at{};    // indexed as `places`
 
-    Impl(const Frame& f, const Body& b, const Algorithm& a, std::uint64_t of_all, int t, const SampleLoads& s)
+    Impl(const Frame& f, const Body& b, const Algorithm& a, std::uint64_t memory, int t)
         : frame{f},
           body{b},
           algorithm{a},
-          bytes{of_all},
-          samples{s},
-          shared{bytes / static_cast<std::uint64_t>(s.count), thread_count(t)},
-          alone{shared.bytes, 1},
+          bytes{memory},
+          shared{bytes, thread_count(t)},
+          alone{bytes, 1},
           threads{t},
           still{f} {
         still.replay = {};
@@ -121,13 +110,17 @@ struct Audit::Impl {
     }
 
     [[nodiscard]] bool has_order() const { return algorithm.ties != TiePolicy::none; }
-    [[nodiscard]] AuditedPixel pixel_at(const Region& region, std::uint32_t pixel, const Image& color,
+    [[nodiscard]] AuditedPixel pixel_at(const Region& region, std::uint32_t element, const FrameResult& result,
                                         std::uint32_t at_opaque) const {
-        const auto width = static_cast<std::uint32_t>(region.rect().width());
+        const auto width = static_cast<std::uint32_t>(region.rect().width()),
+                   area = static_cast<std::uint32_t>(region.rect().area());
+        const std::uint32_t pixel = element % area;
         AuditedPixel at{.x = region.rect().x0 + static_cast<int>(pixel % width),
                         .y = region.rect().y0 + static_cast<int>(pixel / width),
-                        .background = region.targets().color(region.opaque_color(), pixel),
+                        .sample = element / area,
+                        .background = region.targets().color(region.opaque_color(), element),
                         .at_opaque = at_opaque};
+        const Image& color = picture_of(result, at.sample);
         for (int c = 0; c < 4; ++c)
             at.shown[static_cast<std::size_t>(c)] =
                 channel_value(color, at.x - frame.rect().x0, at.y - frame.rect().y0, c);
@@ -135,7 +128,7 @@ struct Audit::Impl {
     }
 
     // Audits all pixels of a part whose fragments fit, range by range.
-    [[nodiscard]] Looked look_at(const Part& part, const PixelTraces* traces, const Image& color,
+    [[nodiscard]] Looked look_at(const Part& part, const PixelTraces* traces, const FrameResult& result,
                                  const AuditMemory& memory) {
         RegionStatistics statistics;
         Region region{still, part, statistics, {}, &pool};
@@ -143,17 +136,21 @@ struct Audit::Impl {
         PixelAudit pixels{frame, algorithm};
         Looked looked;
         FragmentLists fragment_lists = take_fragment_lists();
-        PixelRange range;
-        for (; range.last < coverage.size();) {
-            range = next_range(coverage, part.rect.width(), range.last, memory.fragments());
+        const std::size_t area = part.rect.area(), first = part.sample.value_or(0) * area,
+                          last = part.sample ? first + area : coverage.size();
+        PixelRange range{0, static_cast<std::uint32_t>(first)};
+        while (range.last < last) {
+            range = next_range(std::span{coverage}.first(last), part.rect.width(), range.last, memory.fragments());
             if (coverage[range.first] > memory.fragments()) {
-                looked.left.push_back({rect_of(range, part.rect), part.tile, Extent::tile});
+                const auto pixel = static_cast<std::uint32_t>(range.first % area);
+                looked.left.push_back(
+                    {{rect_of({pixel, pixel + 1}, part.rect), part.tile, Extent::tile}, range.first / area});
                 continue;
             }
             list_visible(region, range, coverage, Counting::silent, fragment_lists);
             for (std::uint32_t p = range.first; p < range.last; ++p)
                 pixels.look_at(fragment_lists.of(p), traces,
-                               pixel_at(region, p, color, fragment_lists.at_opaque[p - range.first]));
+                               pixel_at(region, p, result, fragment_lists.at_opaque[p - range.first]));
         }
         looked.found = pixels.found();
         const std::scoped_lock lock{free_lists_mutex};
@@ -171,16 +168,16 @@ struct Audit::Impl {
     }
 
     // Called when a region has ended: a tile, or the whole frame, which is audited tile by tile.
-    void look_at(Region& region, std::size_t number, const Image& color) {
+    void look_at(Region& region, std::size_t number, const FrameResult& result) {
         // An algorithm without an order has no trace and needs none. An incomplete trace of one with an order is
         // useless, and finish() runs the tile again.
         const bool is_traced = !has_order() || RegionShortcuts{region}.trace().is_complete();
         std::optional<PixelTraces> traces;
-        if (has_order() && is_traced) traces.emplace(RegionShortcuts{region}.trace(), region.rect());
+        if (has_order() && is_traced) traces.emplace(RegionShortcuts{region}.trace(), region.rect(), region.samples());
         const auto look_at_place = [&](std::size_t place) {
-            const Part& part = places[place];
+            const Part part{places[place]};
             found_at[place] =
-                is_traced ? look_at(part, traces ? &*traces : nullptr, color, shared) : Looked{{}, {part}};
+                is_traced ? look_at(part, traces ? &*traces : nullptr, result, shared) : Looked{{}, {part}};
         };
         // Each region has its own element of `found_at`, so workers need no lock.
         if (region.rect() == places[number].rect) return look_at_place(number);
@@ -196,8 +193,10 @@ struct Audit::Impl {
         move(there.found.ties, dx, dy);
         move(there.found.misordered, dx, dy);
         move(there.found.opaque_ties, dx, dy);
-        for (Part& part : there.left)
-            part = {{part.rect.x0 + dx, part.rect.y0 + dy, part.rect.x1 + dx, part.rect.y1 + dy}, to.tile, to.extent};
+        for (Part& part : there.left) {
+            const auto [x0, y0, x1, y1] = part.rect;
+            part = {{{x0 + dx, y0 + dy, x1 + dx, y1 + dy}, to.tile, to.extent}, part.sample};
+        }
     }
 
     // Runs a part again, split into as many parts as the memory requires. Single pixels that do not fit are returned.
@@ -221,12 +220,13 @@ struct Audit::Impl {
             const bool fits = run_traced(region);
             if (fits) {
                 std::optional<PixelTraces> traces;
-                if (has_order()) traces.emplace(RegionShortcuts{region}.trace(), next.rect);
-                looked.add(look_at(next, traces ? &*traces : nullptr, result.color, memory));
+                if (has_order()) traces.emplace(RegionShortcuts{region}.trace(), next.rect, region.samples());
+                looked.add(look_at(next, traces ? &*traces : nullptr, result, memory));
             } else if (next.rect.area() == 1) {
                 looked.left.push_back(next);
             } else {
-                for (const Rect& half : halves(next.rect)) open.push_back({half, next.tile, next.extent});
+                for (const Rect& half : halves(next.rect))
+                    open.push_back({{half, next.tile, next.extent}, next.sample});
             }
         }
         return looked;
@@ -254,19 +254,16 @@ struct Audit::Impl {
         return all;
     }
 
-    // A part of several pixels is left only by samples that load one another, whose fragments fit: their traces do not.
+    // A part that is left is one pixel.
     [[noreturn]] void throw_too_large(const Part& left) {
-        if (left.rect.area() > 1)
-            throw_samples_too_large(2 * bytes, "fragments that are composited more than once", bytes);
         RegionStatistics statistics;
         Region region{still, left, statistics, {}, &pool};
-        throw_too_deep(left, coverage_of(region).front(), bytes, samples.count);
+        throw_too_deep(left, std::ranges::max(coverage_of(region)), bytes);
     }
 
     [[nodiscard]] AuditResult finish(const FrameResult& result) {
         Looked all;
         for (Looked& looked : found_at) all.add(std::move(looked));
-        if (samples.loads_others() && !all.left.empty()) throw_too_large(all.left.front());
         try {
             // First all workers with their shares, then one worker after another with all of the memory for the
             // remaining parts.
@@ -285,16 +282,15 @@ struct Audit::Impl {
     }
 };
 
-Audit::Audit(const Frame& frame, const Body& body, const Algorithm& algorithm, std::uint64_t bytes, int threads,
-             const SampleLoads& samples)
-    : impl_{std::make_unique<Impl>(frame, body, algorithm, bytes, threads, samples)} {}
+Audit::Audit(const Frame& frame, const Body& body, const Algorithm& algorithm, std::uint64_t bytes, int threads)
+    : impl_{std::make_unique<Impl>(frame, body, algorithm, bytes, threads)} {}
 
 Audit::~Audit() = default;
 
 RegionCallbacks Audit::callbacks() {
     return {.begun = [this](std::span<const RegionArea> regions) { impl_->begin(regions); },
             .ended = [this](Region& region, std::size_t number,
-                            const Image& color) { impl_->look_at(region, number, color); },
+                            const FrameResult& result) { impl_->look_at(region, number, result); },
             .alike = [this](std::size_t like, std::size_t region) { impl_->copy(like, region); }};
 }
 

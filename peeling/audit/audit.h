@@ -7,10 +7,9 @@
 //          frame's answers. So the results depend neither on the memory nor on tiles, threads and execution.
 // Numbers  Each worker has an equal share of the memory; a part that does not fit into a share is audited alone with
 //          all of it. Half of a share is for the trace, 16 bytes per entry; the rest for lists, 52 bytes per fragment:
-//          28 in its list, 8 in each of three orders. In addition a region takes 24 bytes per pixel while it is
-//          audited. The frames of a group of samples are audited at once, each with an equal share of the memory. If
-//          they load one another, no part can be run again: the traces of all samples share half of the memory, and
-//          what does not fit is an error.
+//          28 in its list, 8 in each of three orders. In addition a region takes 24 bytes per sample of a pixel while
+//          it is audited. With several samples, each is audited by itself, with its own picture; counts are sums over
+//          the samples.
 // Source   peeling/reference/audit.md 13; the comparison: audit.md 1 to 5.
 // Tests    tests/peeling/audit/audit_test.cpp, tests/peeling/audit/audit_memory_test.cpp
 #pragma once
@@ -21,7 +20,6 @@
 #include "peeling/audit/audit_result.h"
 #include "pipeline/frame/frame.h"
 #include "pipeline/frame/frame_result.h"
-#include "pipeline/frame/sample_loads.h"
 #include "pipeline/region/executor.h"
 
 namespace strata::peeling {
@@ -36,18 +34,13 @@ struct AuditMemory {
     static constexpr std::uint64_t bytes_per_fragment = 52;
 };
 
-// The limit of the trace of one of the samples that load one another: a half of the memory less what the others' traces
-// take, one entry per fragment of `list`. All of the group must call it. Throws InputError if the traces do not fit.
-[[nodiscard]] std::uint64_t trace_bytes_of_sample(const pipeline::SampleLoads& samples,
-                                                  const pipeline::PreparedDraw& list, std::uint64_t bytes);
-
 // The audit of one frame. It must exist while the frame runs.
 class Audit {
   public:
     // `frame` and `body` are those that the executor runs, and must outlive the audit. The frame's trace_bytes limits
-    // the length of a region's trace. threads: 0 means all. `bytes` is the memory of all samples.
+    // the length of a region's trace. threads: 0 means all.
     Audit(const pipeline::Frame& frame, const pipeline::Body& body, const Algorithm& algorithm, std::uint64_t bytes,
-          int threads, const pipeline::SampleLoads& samples = {});
+          int threads);
     ~Audit();
     Audit(const Audit&) = delete;
     Audit& operator=(const Audit&) = delete;
@@ -55,8 +48,7 @@ class Audit {
     // The callbacks for the executor.
     [[nodiscard]] pipeline::RegionCallbacks callbacks();
 
-    // Call after the frame has run. Throws InputError if the fragments of one pixel do not fit into the memory, or
-    // those of samples that load one another.
+    // Call after the frame has run. Throws InputError if the fragments of one pixel do not fit into the memory.
     [[nodiscard]] AuditResult finish(const pipeline::FrameResult& result);
 
   private:

@@ -13,16 +13,18 @@ namespace strata::peeling {
 
 using namespace pipeline;
 
-PixelTraces::PixelTraces(Trace& trace, const rasterizer::Rect& rect)
-    : trace_{trace}, rect_{rect}, head_(rect.area(), none) {
+PixelTraces::PixelTraces(Trace& trace, const rasterizer::Rect& rect, std::size_t samples)
+    : trace_{trace}, rect_{rect}, head_(samples * rect.area(), none) {
     for (std::size_t i = trace.size(); i-- > 0;)  // from the end, so that links run forward
         trace[i].pixel = std::exchange(head_[trace[i].pixel], static_cast<std::uint32_t>(i));
 }
 
 // Follows the pixel's links. Back layers were composited from the far end, each OVER the one before, so their order is
 // reversed.
-void PixelTraces::near_to_far(int x, int y, std::vector<TraceEntry>& sequence, std::vector<TraceEntry>& backs) const {
-    const std::size_t pixel = static_cast<std::size_t>(y - rect_.y0) * static_cast<std::size_t>(rect_.width()) +
+void PixelTraces::near_to_far(int x, int y, std::size_t sample, std::vector<TraceEntry>& sequence,
+                              std::vector<TraceEntry>& backs) const {
+    const std::size_t pixel = sample * rect_.area() +
+                              static_cast<std::size_t>(y - rect_.y0) * static_cast<std::size_t>(rect_.width()) +
                               static_cast<std::size_t>(x - rect_.x0);
     sequence.clear();
     backs.clear();
@@ -86,7 +88,7 @@ void PixelAudit::look_at(std::span<const KeyedFragment> visible, const PixelTrac
     kept_ = by_key_;
     apply(algorithm_.ties, kept_);
     found_.lost_by_ties += fragments.size() - kept_.size();
-    traces->near_to_far(pixel.x, pixel.y, sequence_, backs_);
+    traces->near_to_far(pixel.x, pixel.y, pixel.sample, sequence_, backs_);
     const std::uint64_t errors = differing_positions(fragments);
     *found_.order_errors += errors;
     if (errors > 0) add(found_.misordered, pixel.x, pixel.y);

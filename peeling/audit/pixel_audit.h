@@ -21,23 +21,24 @@ namespace strata::peeling {
 // Links the entries of a finished trace by pixel, in trace order; the trace is consumed.
 class PixelTraces {
   public:
-    // `rect` is the traced region's. Takes 4 bytes per pixel; the entries are linked in place.
-    PixelTraces(pipeline::Trace& trace, const rasterizer::Rect& rect);
+    // `rect` is the traced region's. Takes 4 bytes per sample of a pixel; the entries are linked in place.
+    PixelTraces(pipeline::Trace& trace, const rasterizer::Rect& rect, std::size_t samples = 1);
 
     // Fills `sequence` with the composited layers from near to far: those composited UNDER, in order, then those
     // composited OVER, last first. `backs` is scratch space for the latter.
-    void near_to_far(int x, int y, std::vector<pipeline::TraceEntry>& sequence,
+    void near_to_far(int x, int y, std::size_t sample, std::vector<pipeline::TraceEntry>& sequence,
                      std::vector<pipeline::TraceEntry>& backs) const;
 
   private:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
     const pipeline::Trace& trace_;
     rasterizer::Rect rect_;
-    std::vector<std::uint32_t> head_;  // per pixel, its first entry; an entry's `pixel` is the index of the next
+    std::vector<std::uint32_t> head_;  // per element, its first entry; an entry's `pixel` is the index of the next
 };
 
 struct AuditedPixel {
     int x = 0, y = 0;
+    std::size_t sample = 0;
     std::array<double, 4> shown{};  // the image's colour
     pipeline::Rgba background{};    // the opaque scene's colour
     std::uint32_t at_opaque = 0;    // fragments at exactly the depth of the opaque surface

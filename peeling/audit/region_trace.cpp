@@ -13,7 +13,7 @@ RegionCallbacks keep_traces(std::vector<RegionTrace>& traces) {
         traces.clear();
         for (const RegionArea& place : regions) traces.push_back({place.rect, {}});
     };
-    const auto keep = [&traces](Region& region, std::size_t number, const Image&) {
+    const auto keep = [&traces](Region& region, std::size_t number, const FrameResult&) {
         RegionTrace& kept = traces[number];
         kept.entries.clear();
         for (std::size_t i = 0; i < RegionShortcuts{region}.trace().size(); ++i)

@@ -11,7 +11,7 @@ namespace strata::peeling {
 
 struct RegionTrace {
     rasterizer::Rect rect;
-    std::vector<pipeline::TraceEntry> entries;  // pixel indices are relative to `rect`
+    std::vector<pipeline::TraceEntry> entries;  // `pixel` is an element: sample * rect.area() + pixel of `rect`
 };
 
 // Keeps the traces of a frame's regions in `traces` while it runs: one per region, or a single one if the frame runs as

@@ -46,6 +46,8 @@ void check_options(const RenderOptions& o) {
         its.fail(FieldName{"compare_epsilon.absolute"}, "a number from 0 to 1", o.compare_epsilon.absolute);
     if (!has_simd(o.simd))
         its.fail(FieldName{"simd"}, "an instruction set that this processor has", static_cast<int>(o.simd));
+    if (const int samples = o.sampling.samples; samples != 1 && samples != 2 && samples != 4 && samples != 8)
+        its.fail(FieldName{"samples"}, "1, 2, 4 or 8", samples);
     its.within("max_passes", o.max_passes, 0, 1000000);
     its.listed("termination.rule", o.termination.rule);
     if (o.termination.rule == TerminationRule::fixed)

@@ -42,7 +42,7 @@ Execution execution_of(const Algorithm& algorithm, const RenderOptions& options,
     const bool counts_nodes = algorithm.shares_nodes && options.algorithm.frame_nodes > 0;
     const bool is_literal = algorithm.whole_frame || leaves_samples(options) ||
                             counts_passes_across_tiles(algorithm, options, instruments) || counts_nodes ||
-                            options.counters || instruments.samples.group != nullptr;
+                            options.counters;
     return is_literal ? Execution::literal : options.execution;
 }
 
@@ -51,8 +51,6 @@ std::string reason_for(const Work& work, const Algorithm& algorithm, const Rende
                        const Instruments& instruments) {
     if (work.path == Path::tiled && !algorithm.draws_again()) return "";
     if (work.path != Path::literal) return work.why;
-    if (instruments.samples.group != nullptr)
-        return "loads of another sample, or instruments, need all samples step by step";
     if (leaves_samples(options)) return "sample coverage and alpha to coverage are applied in every pass";
     if (options.counters) return "--counters counts in literal execution";
     if (options.execution == Execution::literal) return "--execution literal";

@@ -44,8 +44,7 @@ void set_colors(Frame& f, const FrameSetup& setup) {
 // The audit needs the traces of all algorithms that composite fragments; each worker has an equal share of the memory.
 void set_memory(Frame& f, const Algorithm& algorithm, const FrameSetup& setup, const Instruments& instruments) {
     const bool is_literal = execution_of(algorithm, setup.options, instruments) == Execution::literal;
-    const AuditMemory memory{setup.audit_memory() / static_cast<std::uint64_t>(instruments.samples.count),
-                             is_literal ? 1 : thread_count(setup.options.threads)};
+    const AuditMemory memory{setup.audit_memory(), is_literal ? 1 : thread_count(setup.options.threads)};
     f.trace = setup.options.audit && algorithm.ties != TiePolicy::none;
     f.trace_bytes = memory.trace_bytes();
     f.list_bytes = memory.bytes / static_cast<std::uint64_t>(memory.workers);
@@ -67,6 +66,10 @@ Frame make_frame(const Algorithm& algorithm, FrameSetup& setup, const Instrument
     f.effects = options.effects;
     f.keep_layers = options.keep_layers;
     f.nearest_depth = options.nearest_depth;
+    f.loads = options.sampling.loads;
+    f.composites = options.sampling.composites;
+    f.resolve = options.sampling.resolve;
+    f.keep_samples = options.keep_samples || options.audit;  // the audit compares the picture of each sample
     f.checks_targets = algorithm.body || (algorithm.run_with != nullptr && needs(algorithm, Feature::float_targets));
     return f;
 }

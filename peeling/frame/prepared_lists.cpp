@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "peeling/frame/stopwatch.h"
+#include "pipeline/device/check.h"
 #include "pipeline/vertices/check_list.h"
 #include "pipeline/vertices/other_splits.h"
 #include "rasterizer/set_up/check_input.h"
@@ -71,7 +72,7 @@ void PreparedLists::bin(int tile_size_px) {
         if (!list.draw || list.draw->geometry.tile_size == tile_size_px) return;
         list.binned_seconds = 0;
         const Stopwatch watch{list.binned_seconds};
-        bin_triangles(list.draw->geometry, tile_size_px, s_.options.threads);
+        bin_triangles(*list.draw, tile_size_px, s_.options.threads);
     };
     std::ranges::for_each(transparent_, bin_one);
     bin_one(opaque_);
@@ -85,11 +86,18 @@ PrepareOptions PreparedLists::prepare_options(Selection selection) const {
                            .depth_quotient = takes_quotient(s_.depth),
                            .tile_size = 0,
                            .threads = s_.options.threads,
-                           .alteration = s_.options.vertex_alteration};
+                           .alteration = s_.options.vertex_alteration,
+                           .samples = samples()};
     if (s_.light == nullptr) return options;
     options.units = shadow_units(*s_.list.light, s_.view.view, s_.light->state, s_.profile);
     options.receives_shadow = true;
     return options;
+}
+
+// A device that lacks so many samples refuses the frame.
+int PreparedLists::samples() const {
+    const int samples = s_.options.sampling.samples;
+    return check_multisampling(s_.profile, samples) ? 1 : samples;
 }
 
 // --alpha draws every material as transparent.
@@ -106,7 +114,8 @@ PreparedLists::TimedList PreparedLists::prepare(const DrawList& list, const View
         prepared.draw = pipeline::prepare(list, view, raster, s_.profile, options);
         // After set-up: the same triangles, translated by whole pixels.
         const auto& [x, y] = s_.options.window_origin;
-        if (x != 0 || y != 0) move_window(prepared.draw->geometry, x, y);
+        for (std::size_t sample = 0; (x != 0 || y != 0) && sample < prepared.draw->samples(); ++sample)
+            move_window(prepared.draw->of_sample(sample), x, y);
     }
     return prepared;
 }

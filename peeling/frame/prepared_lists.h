@@ -59,6 +59,7 @@ class PreparedLists {
 
     [[nodiscard]] pipeline::PrepareOptions prepare_options(pipeline::Selection selection) const;
     [[nodiscard]] pipeline::Selection transparent_selection() const;
+    [[nodiscard]] int samples() const;
     [[nodiscard]] TimedList prepare(const pipeline::DrawList& list, const pipeline::View& view,
                                     const rasterizer::RasterState& raster,
                                     const pipeline::PrepareOptions& options) const;

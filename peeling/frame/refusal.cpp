@@ -42,6 +42,19 @@ std::optional<Refusal> check_results(const Algorithm& algorithm, const FrameSetu
     return std::nullopt;
 }
 
+std::optional<Refusal> check_samples_of(const Algorithm& algorithm, const FrameSetup& setup) {
+    const Multisampling& sampling = setup.options.sampling;
+    if (auto lacking = check_multisampling(setup.profile, sampling.samples)) return lacking;
+    if (sampling.resolve == Resolve::quincunx &&
+        (sampling.samples != 2 || setup.profile.sample_positions != SamplePositions::nv20))
+        return Refusal{"Quincunx filter of " + std::to_string(sampling.samples) + " samples",
+                       "NV_multisample_filter_hint", "use --profile geforce3 with --samples 2"};
+    if (sampling.samples > 1 && algorithm.samples > 1)
+        return Refusal{"multisampling in " + algorithm.name + ", which stores fragments in the samples", "",
+                       "use --samples 1, or k_buffer"};
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Refusal> refusal_of(const Algorithm& algorithm, const FrameSetup& setup) {
@@ -51,6 +64,7 @@ std::optional<Refusal> refusal_of(const Algorithm& algorithm, const FrameSetup& 
     const DeviceProfile& profile = setup.profile;
     const rasterizer::DepthRequest request = setup.depth_of(algorithm);
     const bool casts_shadows = setup.lists.settings().list.light.has_value();
+    if (auto lacking = check_samples_of(algorithm, setup)) return lacking;
     if (auto lacking = check_size(profile, options.width, options.height)) return lacking;
     if (auto lacking = check_depth(profile, request)) return lacking;
     if (auto lacking = check_w_buffer(request, setup.is_perspective)) return lacking;
@@ -65,6 +79,7 @@ std::optional<Refusal> refusal_of(const Algorithm& algorithm, const FrameSetup& 
 
 std::optional<Refusal> refusal_of_depth_pass(const Algorithm& one_pass, const FrameSetup& setup) {
     const RenderOptions& options = setup.options;
+    if (auto lacking = check_samples_of(one_pass, setup)) return lacking;
     if (auto lacking = check_size(setup.profile, options.width, options.height)) return lacking;
     if (auto lacking = check_depth(setup.profile, setup.depth)) return lacking;
     if (auto lacking = check(setup.profile, setup.color_format)) return lacking;

@@ -48,7 +48,7 @@ RenderResult run_passes(const Frame& frame, const Body& body, const FrameSetup& 
     const int threads = setup.options.threads;
     std::optional<Audit> audit;
     if (setup.options.audit && call.traces == nullptr)
-        audit.emplace(frame, body, algorithm, setup.audit_memory(), threads, instruments.samples);
+        audit.emplace(frame, body, algorithm, setup.audit_memory(), threads);
     const RegionCallbacks callbacks = call.traces != nullptr ? keep_traces(*call.traces)
                                       : audit                ? audit->callbacks()
                                                              : RegionCallbacks{};
@@ -103,19 +103,16 @@ struct Renderer::State {
     [[nodiscard]] Frame frame(const Algorithm& algorithm, const Instruments& instruments) {
         Frame f = make_frame(algorithm, setup, instruments);
         f.max_passes = passes_of(pass_limit(algorithm, setup.options, f), f);
-        if (instruments.samples.loads_others() && !limits_passes(setup.options))
+        if (f.loads_others() && !limits_passes(setup.options))
             f.max_passes = std::max(f.max_passes, passes_of(loads_limit(algorithm), f));
         return f;
     }
 
-    // Traces that are kept have no limit; an audit's is that of the frame, or its share of those of all samples.
-    void set_trace(const RenderCall& call, Frame& f) const {
-        if (call.traces != nullptr) {
-            f.trace = true;
-            f.trace_bytes = ~std::uint64_t{0};
-        } else if (f.trace && call.instruments.samples.loads_others()) {
-            f.trace_bytes = trace_bytes_of_sample(call.instruments.samples, *f.transparent, setup.audit_memory());
-        }
+    // Traces that are kept have no limit.
+    static void set_trace(const RenderCall& call, Frame& f) {
+        if (call.traces == nullptr) return;
+        f.trace = true;
+        f.trace_bytes = ~std::uint64_t{0};
     }
 
     [[nodiscard]] Body body(const Algorithm& algorithm) const {
@@ -133,6 +130,7 @@ struct Renderer::State {
             result.seconds.geometry = setup.seconds_of(algorithm);
             add_diagnostics(f, setup, algorithm, setup.options.audit && call.traces == nullptr, result);
             turn_as_shown(setup.shown(), result, call.traces);
+            if (!setup.options.keep_samples) result.frame.samples.clear();
             return result;
         } catch (const Refused& lacking) {
             return refused(lacking.refusal);
@@ -177,6 +175,16 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress, c
     return result;
 }
 
+FrameFragments FrameFragments::of_sample(std::size_t sample) const {
+    FrameFragments own;
+    for (const CapturedFragment& fragment : all)
+        if (fragment.sample == sample) own.all.push_back(fragment);
+    const std::size_t pixels = opaque.size() / samples;
+    const auto first = opaque.begin() + static_cast<std::ptrdiff_t>(sample * pixels);
+    own.opaque.assign(first, first + static_cast<std::ptrdiff_t>(pixels));
+    return own;
+}
+
 FrameFragments Renderer::fragments(const Algorithm& algorithm) {
     FrameSetup& setup = state_->setup;
     const SimdScope kernels{setup.options.simd};
@@ -192,22 +200,15 @@ FrameFragments Renderer::fragments(const Algorithm& algorithm) {
     FrameFragments found;
     const Body capture = [&](Region& region) {
         found.all = RegionShortcuts{region}.capture(Counting::counted);
+        found.samples = region.samples();
         const std::uint32_t* opaque = region.storage(region.opaque_depth()).depth(0);
-        found.opaque.assign(opaque, opaque + region.rect().area());
+        found.opaque.assign(opaque, opaque + region.elements());
         region.publish(region.opaque_color());
     };
     static_cast<void>(run(frame, capture, Execution::literal, 1));
     setup.shown().turn(found);
     return found;
 }
-
-int Renderer::limiting_depth(const Algorithm& algorithm) {
-    if (refusal_of(algorithm, state_->setup)) return 0;
-    const Frame frame = state_->frame(algorithm, {});
-    return pass_limit(algorithm, state_->setup.options, frame).per_fragment == 0 ? 0 : state_->deepest.value_or(0);
-}
-
-void Renderer::set_limiting_depth(int deepest) { state_->deepest = deepest; }
 
 DepthFormat Renderer::depth_format() const noexcept { return state_->setup.depth.format; }
 Format Renderer::color_format() const noexcept { return state_->setup.color_format; }

@@ -5,6 +5,8 @@
 
 #include "peeling/frame/check_options.h"
 #include "peeling/raster_state.h"
+#include "pipeline/device/check.h"
+#include "pipeline/device/sample_points.h"
 #include "rasterizer/base/simd.h"
 
 namespace strata::peeling {
@@ -48,9 +50,25 @@ bool FrameSetup::is_invariant() const noexcept {
 
 double FrameSetup::seconds_of(const Algorithm& algorithm) { return lists_for(algorithm).seconds(algorithm.order); }
 
+namespace {
+
+// The state of sample 0, for a device that has so many samples; a frame without samples has one program per pixel, and
+// its fragments cover it.
+RenderOptions with_samples(RenderOptions options, const DeviceProfile& profile) {
+    const int samples = options.sampling.samples;
+    if (samples > 1 && !check_multisampling(profile, samples))
+        set_sample(options.raster, profile.sample_positions, samples, 0);
+    else if (!options.raster.sample)
+        options.raster.interpolation = rasterizer::Interpolation::sample, options.raster.sample_coverage = {};
+    return options;
+}
+
+}  // namespace
+
 FrameSetup set_up_frames(const DrawList& list, const View& view, const DeviceProfile& profile,
-                         const RenderOptions& options) {
-    check_options(options);  // before the scope, which takes an instruction set that the processor has
+                         const RenderOptions& given) {
+    check_options(given);  // before the scope, which takes an instruction set that the processor has
+    const RenderOptions options = with_samples(given, profile);
     const SimdScope kernels{options.simd};
     const bool is_exact = profile.raster.depth_path == rasterizer::DepthPath::exact;
     const rasterizer::DepthRequest depth{.path = options.depth_path.value_or(profile.raster.depth_path),

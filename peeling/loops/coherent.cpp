@@ -56,7 +56,7 @@ void count_run(CoherentPeel& peel) {
     state.selection = selects_after_nearest(peel);
     static_cast<void>(region.draw(state, keep_after_nearest));
     const std::uint32_t* const stencil = region.storage(peel.stencil).stencil(0);
-    for (std::uint32_t pixel = 0; pixel < region.rect().area(); ++pixel)
+    for (std::uint32_t pixel = 0; pixel < region.elements(); ++pixel)
         if (stencil[pixel] == 128) peel.full_counts.add(pixel);
 }
 

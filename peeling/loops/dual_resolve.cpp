@@ -99,7 +99,7 @@ class Rgba8Course {
           target_{region.make_color()},
           opaque_{RegionShortcuts{region}.words(region.opaque_color())},
           result_{RegionShortcuts{region}.words(target_)} {
-        for (std::size_t pixel = 0; pixel < region.rect().area(); ++pixel)  // pixels without a fragment
+        for (std::size_t pixel = 0; pixel < region.elements(); ++pixel)  // pixels without a fragment
             result_[pixel] = opaque_[pixel] | 0xff000000u;
     }
 

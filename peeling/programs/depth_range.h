@@ -55,7 +55,7 @@ inline void composite_under(const pipeline::FragmentBatch& in, pipeline::Outputs
 // A set of pixels of a region.
 class PixelSet {
   public:
-    explicit PixelSet(const pipeline::Region& region) : has_(region.rect().area()) {}
+    explicit PixelSet(const pipeline::Region& region) : has_(region.elements()) {}
     // True if the pixel was not yet in the set.
     bool add(std::uint32_t pixel) {
         if (has_[pixel]) return false;
@@ -80,7 +80,7 @@ class PixelSet {
 // Detects ties at a peel's bound: more than one fragment at a pixel in a pass that composites by equality of depth.
 class BoundTies {
   public:
-    explicit BoundTies(const pipeline::Region& region) : tied_{region}, arrived_(region.rect().area()) {}
+    explicit BoundTies(const pipeline::Region& region) : tied_{region}, arrived_(region.elements()) {}
     void start() { ++pass_; }
     void add(const pipeline::FragmentBatch& in, const pipeline::Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i)

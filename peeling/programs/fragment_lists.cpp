@@ -18,18 +18,19 @@ namespace {
 constexpr rasterizer::FragmentNeeds list_needs{
     .shader_z = true, .code = true, .exact_code = true, .color = true, .texcoord = false, .facing = false};
 
-// Stores fragments in their pixels' lists in submission order; batches number their pixels from the range's first.
+// Stores fragments in their pixels' lists in submission order; batches number their pixels from `first` of the range.
 class Filing {
   public:
-    Filing(const Region& region, FragmentLists& fragment_lists)
-        : opaque_{region.storage(region.opaque_depth()).depth(0) + fragment_lists.pixels.first},
+    Filing(const Region& region, FragmentLists& fragment_lists, std::uint32_t first = 0)
+        : first_{first},
+          opaque_{region.storage(region.opaque_depth()).depth(0) + fragment_lists.pixels.first + first},
           by_shader_z_{region.frame().key == DepthKey::shader_z},
           far_{rasterizer::max_code(depth_format(region.storage(region.opaque_depth()).format()))},
           fragment_lists_{fragment_lists} {}
 
     void operator()(const FragmentBatch& in, const Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
-            const std::uint32_t pixel = in.pixel[i];
+            const std::uint32_t pixel = first_ + in.pixel[i];
             if (out.alive[i] == 0) continue;
             if (!is_visible(in, i)) {
                 fragment_lists_.at_opaque[pixel] += lies_on_surface(in, i) ? 1 : 0;
@@ -57,7 +58,8 @@ class Filing {
         return opaque != far_ && (by_shader_z_ ? in.shader_z[i] == std::bit_cast<float>(opaque) : in.code[i] == opaque);
     }
 
-    const std::uint32_t* opaque_;  // of the range's first pixel
+    std::uint32_t first_;
+    const std::uint32_t* opaque_;  // of pixel `first_` of the range
     bool by_shader_z_;
     std::uint32_t far_;  // the code of a pixel without an opaque surface
     FragmentLists& fragment_lists_;
@@ -74,7 +76,7 @@ rasterizer::Rect rect_of(const PixelRange& pixels, const rasterizer::Rect& regio
 }
 
 std::vector<std::uint32_t> coverage_of(Region& region) {
-    std::vector<std::uint32_t> coverage(region.rect().area(), 0);
+    std::vector<std::uint32_t> coverage(region.elements(), 0);
     RegionShortcuts{region}.count_coverage(coverage);
     return coverage;
 }
@@ -114,14 +116,21 @@ void list_visible(Region& region, const PixelRange& pixels, std::span<const std:
         fragment_lists.fragments = {};  // frees the old fragments before the new ones are allocated
         fragment_lists.fragments.resize(fragments);
     }
-    Filing file{region, fragment_lists};
     if (counting == Counting::counted) {
         PassState state;
         state.needs = list_needs;
+        Filing file{region, fragment_lists};
         static_cast<void>(
             region.draw(state, [&](const FragmentBatch& in, const Loads&, Outputs& out) { file(in, out); }));
-    } else {
-        static_cast<void>(RegionShortcuts{region}.visit_batches(list_needs, rect_of(pixels, region.rect()),
+        return;
+    }
+    const auto area = static_cast<std::uint32_t>(region.rect().area());
+    for (std::uint32_t sample = pixels.first / area; sample * area < pixels.last; ++sample) {
+        const std::uint32_t first = std::max(pixels.first, sample * area),
+                            last = std::min(pixels.last, (sample + 1) * area);
+        Filing file{region, fragment_lists, first - pixels.first};
+        const PixelRange own{first - sample * area, last - sample * area};
+        static_cast<void>(RegionShortcuts{region}.visit_batches(list_needs, rect_of(own, region.rect()), sample,
                                                                 [&](const FragmentBatch& in, const Outputs& out) {
                                                                     file(in, out);
                                                                     return true;

@@ -27,12 +27,14 @@ struct KeyedFragment {
     friend bool operator==(const KeyedFragment&, const KeyedFragment&) = default;
 };
 
-// Pixels of a region, numbered row by row: whole rows, or part of one row.
+// Elements of a region, numbered sample by sample and row by row: whole rows, or part of one row. Below, a pixel is one
+// sample of a pixel.
 struct PixelRange {
     std::uint32_t first = 0, last = 0;  // half-open
     [[nodiscard]] std::uint32_t size() const noexcept { return last - first; }
     friend bool operator==(const PixelRange&, const PixelRange&) = default;
 };
+// The rectangle of a range of sample 0.
 [[nodiscard]] rasterizer::Rect rect_of(const PixelRange& pixels, const rasterizer::Rect& region) noexcept;
 
 // The number of fragments of each pixel of the region, before MASK and before any test.

@@ -73,10 +73,10 @@ Image ColorResolve::picture() && {
     return std::move(sum_);
 }
 
-Image quincunx(const Image& corner, const Image& centre, bool is_turned) {
+Image quincunx(const Image& corner, const Image& centre) {
     Image picture = Image::for_overwrite(centre.format, centre.width, centre.height);
     for (int y = 0; y < centre.height; ++y) {
-        const int below = is_turned ? std::max(y - 1, 0) : std::min(y + 1, centre.height - 1);
+        const int below = std::min(y + 1, centre.height - 1);
         for (int x = 0; x < centre.width; ++x)
             for (int c = 0; c < centre.channels(); ++c) {
                 const int right = std::min(x + 1, centre.width - 1);
@@ -89,15 +89,13 @@ Image quincunx(const Image& corner, const Image& centre, bool is_turned) {
     return picture;
 }
 
-void add_nearest(Image sample, bool greater_is_nearer, Image& nearest) {
+void add_nearest(Image sample, Image& nearest) {
     if (nearest.codes.empty()) {
         nearest = std::move(sample);
         return;
     }
-    for (std::size_t i = 0; i < sample.codes.size(); ++i) {
-        std::uint32_t& code = nearest.codes[i];
-        code = greater_is_nearer ? std::max(code, sample.codes[i]) : std::min(code, sample.codes[i]);
-    }
+    for (std::size_t i = 0; i < sample.codes.size(); ++i)
+        nearest.codes[i] = std::min(nearest.codes[i], sample.codes[i]);
 }
 
 }  // namespace strata::pipeline

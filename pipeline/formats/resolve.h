@@ -40,12 +40,11 @@ class ColorResolve {
 
 // Quincunx, for 8-bit codes of two samples, a corner and the centre: the centre has the weight 1/2 and each of the
 // pixel's four corners 1/8; the sum is rounded half up. The corners on the right and below are samples of the next
-// pixels; in the last column and row, the pixel's own corner sample takes their place. `is_turned`: the pixel below in
-// the picture is in the previous row of memory (fragment-stages.md 13.4).
-[[nodiscard]] Image quincunx(const Image& corner, const Image& centre, bool is_turned);
+// pixels; in the last column and row, the pixel's own corner sample takes their place. Rows are those of memory
+// (fragment-stages.md 13.4).
+[[nodiscard]] Image quincunx(const Image& corner, const Image& centre);
 
-// Keeps the nearer of two depths at every pixel; an empty `nearest` becomes `sample`. Under reversed depth greater
-// codes are nearer.
-void add_nearest(Image sample, bool greater_is_nearer, Image& nearest);
+// Keeps the nearer of two depths, the lesser code or key, at every pixel; an empty `nearest` becomes `sample`.
+void add_nearest(Image sample, Image& nearest);
 
 }  // namespace strata::pipeline

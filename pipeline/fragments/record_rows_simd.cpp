@@ -76,7 +76,7 @@ class RecordShade {
 std::uint64_t record_all(TileFragments& to, const rasterizer::Geometry& geometry,
                          std::span<const std::uint32_t> triangles, const rasterizer::Rect& region,
                          const rasterizer::DepthConversion<float>& to_code, double z_units) {
-    RecordState state{to, to_code, z_units, to.more_space({})};
+    RecordState state{to, to_code, z_units, to.more_space({.size = to.size()})};
     raster::RowWalk<RecordShade, RecordState>{state, geometry, region}.draw(triangles);
     to.close(state.space.size);
     return state.fragments;

@@ -20,24 +20,27 @@ float clamped(float x) noexcept { return x > 0.0f ? std::min(x, 1.0f) : 0.0f; }
 
 }  // namespace
 
-CachedTiles::CachedTiles(const rasterizer::Rect& region, const rasterizer::Rect& frame)
+CachedTiles::CachedTiles(const rasterizer::Rect& region, const rasterizer::Rect& frame, std::size_t samples)
     : region_{region},
+      samples_{samples},
       x0_{region.x0 - frame.x0},
       y0_{region.y0 - frame.y0},
       across_{static_cast<std::uint32_t>((frame.width() + side - 1) / side)},
       down_{static_cast<std::uint32_t>((frame.height() + side - 1) / side)} {
-    for (std::uint32_t tile = 0; tile < count(); ++tile) ++tiles_of_slot_[slot_of(tile)];
+    for (std::uint32_t tile = 0; tile < of_sample(); ++tile) ++tiles_of_slot_[slot_of(tile)];
 }
 
-std::uint32_t CachedTiles::tile_of(std::uint32_t pixel) const noexcept {
-    const auto width = static_cast<std::uint32_t>(region_.width());
+std::uint32_t CachedTiles::tile_of(std::uint32_t element) const noexcept {
+    const auto width = static_cast<std::uint32_t>(region_.width()), area = static_cast<std::uint32_t>(region_.area());
+    const std::uint32_t pixel = element % area;
     const std::uint32_t x = pixel % width + static_cast<std::uint32_t>(x0_),
                         y = pixel / width + static_cast<std::uint32_t>(y0_);
-    return y / side * across_ + x / side;
+    return element / area * of_sample() + y / side * across_ + x / side;
 }
 
 std::size_t CachedTiles::slot_of(std::uint32_t tile) const noexcept {
-    return (tile % across_ + 5 * (tile / across_)) % slots;
+    const std::uint32_t own = tile % of_sample();
+    return tile / of_sample() * std::size_t{slots} + (own % across_ + 5 * (own / across_)) % slots;
 }
 
 CachedTarget::CachedTarget(const CachedTiles& tiles, const DeviceProfile& profile, const Blend& blending,
@@ -123,9 +126,9 @@ void CachedTarget::write_back() {
     for (std::uint32_t tile = 0; tile < tiles_.count(); ++tile) write_back(tile);
 }
 
-TileCache::TileCache(const rasterizer::Rect& region, const rasterizer::Rect& frame)
-    : tiles_{region, frame}, is_frame_{region == frame} {
-    for (auto& owners : owner_) owners.fill(no_tile);
+TileCache::TileCache(const rasterizer::Rect& region, const rasterizer::Rect& frame, std::size_t samples)
+    : tiles_{region, frame, samples}, is_frame_{region == frame} {
+    for (auto& owners : owner_) owners.assign(tiles_.all_slots(), no_tile);
 }
 
 bool TileCache::knows(const Blend& blending, Format format) noexcept {

@@ -2,7 +2,7 @@
 // blended values stay in binary32 and are rounded when their tile is written back.
 //
 // Rule     The frame is divided into tiles of 64 x 64 pixels, the cache has 50 slots; tile (x, y) uses slot (x + 5 y)
-//          mod 50. A fragment that passes its tests fetches its tile; in a pass without tests so does a fragment that
+//          mod 50. Every sample of a frame has tiles and slots of its own. A fragment that passes its tests fetches its tile; in a pass without tests so does a fragment that
 //          the program discards. The tile that occupied the slot is written back: each channel is rounded to the
 //          target's format. A fetched value is the value of its code; a blended value is neither rounded nor, on 8-bit
 //          targets, converted to a code, but clamped to 0..1 before and after the blend. At the end of a pass all tiles
@@ -35,24 +35,30 @@ struct CachedLanes {
     int sample;
 };
 
-// The tile of each pixel of a region, and the slot of each tile.
+// The tile of each element of a region, and the slot of each tile.
 class CachedTiles {
   public:
     static constexpr int side = 64, slots = 50;
 
-    CachedTiles(const rasterizer::Rect& region, const rasterizer::Rect& frame);
+    CachedTiles(const rasterizer::Rect& region, const rasterizer::Rect& frame, std::size_t samples);
 
-    [[nodiscard]] std::size_t count() const noexcept { return static_cast<std::size_t>(across_) * down_; }
-    [[nodiscard]] std::uint32_t tile_of(std::uint32_t pixel) const noexcept;
+    [[nodiscard]] std::size_t count() const noexcept { return samples_ * of_sample(); }
+    [[nodiscard]] std::uint32_t tile_of(std::uint32_t element) const noexcept;
     [[nodiscard]] std::size_t slot_of(std::uint32_t tile) const noexcept;
     // True if another tile of the frame uses the same slot.
-    [[nodiscard]] bool is_shared(std::uint32_t tile) const noexcept { return tiles_of_slot_[slot_of(tile)] > 1; }
+    [[nodiscard]] bool is_shared(std::uint32_t tile) const noexcept {
+        return tiles_of_slot_[slot_of(tile) % slots] > 1;
+    }
+    [[nodiscard]] std::size_t all_slots() const noexcept { return samples_ * slots; }
 
   private:
+    [[nodiscard]] std::uint32_t of_sample() const noexcept { return across_ * down_; }
+
     rasterizer::Rect region_;
+    std::size_t samples_;
     int x0_, y0_;  // the region's corner, in pixels of the frame
     std::uint32_t across_, down_;
-    std::array<std::uint32_t, slots> tiles_of_slot_{};  // number of tiles per slot
+    std::array<std::uint32_t, slots> tiles_of_slot_{};  // number of tiles per slot, of one sample
 };
 
 // The storage of a target's codes: one Texels per sample.
@@ -106,7 +112,7 @@ class CachedTarget {
 // All targets of one pass, which are fetched and written back together.
 class TileCache {
   public:
-    TileCache(const rasterizer::Rect& region, const rasterizer::Rect& frame);
+    TileCache(const rasterizer::Rect& region, const rasterizer::Rect& frame, std::size_t samples = 1);
 
     // True if the cache affects a blend: minima and maxima of rounded values are already rounded, and binary32 is not
     // rounded.
@@ -125,7 +131,7 @@ class TileCache {
     bool is_frame_;  // true if the region is the whole frame
     std::array<std::optional<CachedTarget>, max_color_targets> targets_;
     static constexpr std::uint32_t no_tile = ~0u;
-    std::array<std::array<std::uint32_t, CachedTiles::slots>, max_color_targets> owner_;
+    std::array<std::vector<std::uint32_t>, max_color_targets> owner_;  // per slot
 };
 
 }  // namespace strata::pipeline

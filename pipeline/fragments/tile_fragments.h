@@ -2,7 +2,8 @@
 // pass of a peel.
 //
 // Rule     Fragments have indices 0, 1, 2, ... in submission order, after texture and MASK; fragments killed by MASK
-//          have none. Their values are in arrays by index. A record that would exceed its limit is discarded, and its
+//          have none. With several samples per pixel a "pixel" is an element of the region, and the fragments of each
+//          sample are in submission order, those of sample 0 first. Their values are in arrays by index. A record that would exceed its limit is discarded, and its
 //          region rasterizes every pass.
 // Layout   One array per value; the channels of a colour are stored together, because passes fetch fragments at
 //          scattered indices. A coverage mask of samples would be one more array: nothing else here depends on the
@@ -39,6 +40,10 @@ class TileFragments {
     };
     [[nodiscard]] Space more_space(const Space& from);
     void close(std::size_t size);
+    // Adds `by` to the pixels of the fragments from index `first` on.
+    void move_pixels(std::size_t first, std::uint32_t by) noexcept {
+        for (std::size_t i = first; i < size_; ++i) pixel_[i] += by;
+    }
     void finish();  // ends the record
     void forget() noexcept;
 

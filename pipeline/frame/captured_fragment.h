@@ -13,6 +13,7 @@ struct CapturedFragment {
     std::uint32_t code = 0, exact_code = 0;  // the depth as the frame's buffer stores it; the same by DepthPath::exact
     float shader_z = 0;                      // the depth that a fragment program reads, not quantized
     Rgba color{};                            // interpolated
+    std::uint32_t sample = 0;                // of the pixel
 };
 
 }  // namespace strata::pipeline

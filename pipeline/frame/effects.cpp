@@ -12,20 +12,24 @@ namespace strata::pipeline {
 
 namespace {
 
-// Adds the fragments of one tile by material; returns the greatest number at one pixel.
+// Adds the fragments of one tile by material; returns the greatest number at one sample of a pixel.
 std::uint32_t count_fragments(const PreparedDraw& list, std::size_t tile, std::vector<std::uint64_t>& by_material) {
-    const auto triangles = list.geometry.bin(tile);
-    if (triangles.empty()) return 0;
+    if (list.triangles_in(tile) == 0) return 0;
     const rasterizer::Rect rect = tile_rect(list.geometry, tile);
-    std::vector<std::uint32_t> of_pixel(rect.area());
-    auto sink = [&](const FragmentBatch& batch) {
-        by_material[batch.material] += static_cast<std::uint64_t>(batch.count);
-        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++of_pixel[batch.pixel[i]];
-    };
     rasterizer::TileRasterizer rasterizer{rect};
-    constexpr rasterizer::FragmentNeeds coverage_alone{.shader_z = false, .code = false, .color = false};
-    rasterizer.draw(list.geometry, triangles, {}, coverage_alone, rasterizer::BatchSink{sink});
-    return *std::max_element(of_pixel.begin(), of_pixel.end());
+    std::uint32_t most = 0;
+    for (std::size_t sample = 0; sample < list.samples(); ++sample) {
+        std::vector<std::uint32_t> of_pixel(rect.area());
+        auto sink = [&](const FragmentBatch& batch) {
+            by_material[batch.material] += static_cast<std::uint64_t>(batch.count);
+            for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++of_pixel[batch.pixel[i]];
+        };
+        constexpr rasterizer::FragmentNeeds coverage_alone{.shader_z = false, .code = false, .color = false};
+        const rasterizer::Geometry& geometry = list.of_sample(sample);
+        rasterizer.draw(geometry, geometry.bin(tile), {}, coverage_alone, rasterizer::BatchSink{sink});
+        most = std::max(most, *std::ranges::max_element(of_pixel));
+    }
+    return most;
 }
 
 }  // namespace

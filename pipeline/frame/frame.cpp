@@ -1,4 +1,4 @@
-// pipeline/frame/frame.cpp - Frame::rect, which needs the definition of PreparedDraw (frame.h).
+// pipeline/frame/frame.cpp - the functions of Frame that need the definition of PreparedDraw (frame.h).
 #include "pipeline/frame/frame.h"
 
 #include "pipeline/vertices/prepare.h"
@@ -6,5 +6,6 @@
 namespace strata::pipeline {
 
 rasterizer::Rect Frame::rect() const noexcept { return transparent->geometry.state.viewport; }
+int Frame::samples() const noexcept { return static_cast<int>(transparent->samples()); }
 
 }  // namespace strata::pipeline

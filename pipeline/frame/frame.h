@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "pipeline/device/profile.h"
+#include "pipeline/formats/resolve.h"
 #include "pipeline/frame/run_settings.h"
 #include "pipeline/stages/depth_compare.h"
 #include "pipeline/vertices/draw_list.h"
@@ -24,10 +25,16 @@ struct Replay {
 struct PreparedDraw;
 struct ShadowStage;
 
+// The sample that a program's loads read: its own, sample 0, or all of them resolved
+// (pipeline/reference/fragment-stages.md 13.5 and 13.3).
+enum class LoadedSample : std::uint8_t { own, zero, resolved };
+
+// Every sample of a pixel is an element of the frame's targets, and what a pass does with a fragment it does at each
+// sample that the fragment covers.
 struct Frame {
     const DeviceProfile* profile = nullptr;
     const PreparedDraw* opaque = nullptr;
-    const PreparedDraw* transparent = nullptr;
+    const PreparedDraw* transparent = nullptr;  // its number of samples is the frame's
     const PreparedDraw* second = nullptr;  // see second_list(); has the same bins as `transparent`; null: `transparent`
     rasterizer::DepthRequest depth;  // the frame's depth buffer (path and format), and the path that programs compare
     CompareEpsilon epsilon;          // added by programs to a stored depth before they compare
@@ -54,9 +61,18 @@ struct Frame {
         ~std::uint64_t{0};  // limit of the fragments of a region that an algorithm without an emulated device stores
     bool checks_targets = false;  // report infinity and NaN in every colour target, not only in the published one
     bool nearest_depth = false;   // also produce the frame's depth image
+    LoadedSample loads = LoadedSample::own;       // of geometry passes: of peels
+    LoadedSample composites = LoadedSample::own;  // of full-screen passes
+    Resolve resolve = Resolve::box;               // of the picture and of layers, which quincunx does not filter
+    bool keep_samples = false;                    // also return the picture of every sample
     Format average_count = Format::r16f;  // weighted_average's fragment count: r16f as in the paper, or r32f
 
     [[nodiscard]] rasterizer::Rect rect() const noexcept;  // the rectangle of its viewport
+    [[nodiscard]] int samples() const noexcept;            // of a pixel
+    // True if what a program reads at a sample may be what another sample has stored.
+    [[nodiscard]] bool loads_others() const noexcept {
+        return samples() > 1 && (loads != LoadedSample::own || composites != LoadedSample::own);
+    }
 
     // The list that passes draw repeatedly and that replay records. With a second list, the first one only starts a
     // peel.

@@ -4,8 +4,6 @@
 #pragma once
 #include <cstdint>
 
-#include "pipeline/frame/sample_loads.h"
-
 namespace strata::pipeline {
 
 // Effects that a pass can be made to simulate although no state needs them: values of its fragments, and stages with a
@@ -34,7 +32,6 @@ struct Instruments {
     bool trust_idle = true;  // false: treat every algorithm as if it promised Idle::no, which finds broken promises
     const Observer* observer = nullptr;      // is notified of every step; the run is then literal
     const Alteration* alteration = nullptr;  // deliberate mistakes in steps; the run is then literal
-    SampleLoads samples{};                   // with a group the run is literal
 };
 
 }  // namespace strata::pipeline

@@ -44,6 +44,7 @@ class FrameRun {
         for (std::size_t r = 0; r < regions_.size(); ++r) weight_of_all_ += weight(r);
         const rasterizer::Rect rect = frame.rect();
         result_.color = Image::for_overwrite(frame.picture_format(), rect.width(), rect.height());
+        if (keeps_samples()) result_.samples.assign(static_cast<std::size_t>(frame.samples()), result_.color);
         if (frame.nearest_depth)
             result_.depth =
                 Image::for_overwrite(target_format(frame.key_request().format), rect.width(), rect.height());
@@ -61,10 +62,34 @@ class FrameRun {
         if (extent_ == Extent::tile && frame_.max_passes > 0 && regions_[0].statistics.loops.size() > 1) limit_loops();
         settle();
         gather();
+        if (frame_.samples() > 1 && frame_.resolve == Resolve::quincunx)
+            result_.color = quincunx(result_.samples[0], result_.samples[1]);
+        if (!frame_.keep_samples) result_.samples.clear();
         return std::move(result_);
     }
 
   private:
+    // The filter of quincunx reads samples of neighbouring pixels, which other regions have.
+    [[nodiscard]] bool keeps_samples() const {
+        return frame_.samples() > 1 && (frame_.keep_samples || frame_.resolve == Resolve::quincunx);
+    }
+
+    // Writes the part of the frame's pictures that a region has drawn.
+    void write_pictures(Region& region, Target published) {
+        const RegionShortcuts shortcuts{region};
+        for (std::size_t sample = 0; sample < result_.samples.size(); ++sample)
+            shortcuts.write_image(published, sample, result_.samples[sample]);
+        if (region.samples() == 1) return shortcuts.write_image(published, 0, result_.color);
+        copy_into(region.targets().resolved(published), region.rect(), result_.color);
+    }
+
+    void write_nearest(Region& region) {
+        RegionShortcuts shortcuts{region};
+        const Target nearest = shortcuts.nearest_depth();
+        if (region.samples() == 1) return shortcuts.write_image(nearest, 0, result_.depth);
+        copy_into(region.targets().resolved(nearest), region.rect(), result_.depth);
+    }
+
     [[nodiscard]] const rasterizer::Rect& rect(std::size_t r) const { return areas_[r].rect; }
 
     // Copies a part of the frame to its position; parts are disjoint, so threads do not conflict.
@@ -80,7 +105,7 @@ class FrameRun {
     // on the position (execution.md 6).
     [[nodiscard]] bool is_blank(std::size_t r) const {
         const auto is_empty = [&](const PreparedDraw* list) {
-            return list == nullptr || list->geometry.bin(areas_[r].tile).empty();
+            return list == nullptr || list->triangles_in(areas_[r].tile) == 0;
         };
         return extent_ == Extent::tile && frame_.effects == Effects::needed && frame_.blank_tiles_are_equal &&
                is_empty(frame_.transparent) && is_empty(frame_.second) && is_empty(frame_.opaque);
@@ -117,6 +142,7 @@ class FrameRun {
         regions_[r] = regions_[look_alike_[r]];
         regions_[r].fragments = regions_[r].statistics.fragments_processed = 0;
         copy(look_alike_[r], r, result_.color);
+        for (Image& sample : result_.samples) copy(look_alike_[r], r, sample);
         if (callbacks_.alike) callbacks_.alike(look_alike_[r], r);
         show(r);
         if (frame_.nearest_depth) copy(look_alike_[r], r, result_.depth);
@@ -127,7 +153,7 @@ class FrameRun {
         if (extent_ == Extent::frame) return 1;
         std::size_t triangles = 1;
         for (const PreparedDraw* list : {frame_.transparent, frame_.second, frame_.opaque})
-            if (list != nullptr) triangles += list->geometry.bin(areas_[r].tile).size();
+            if (list != nullptr) triangles += list->triangles_in(areas_[r].tile);
         return triangles;
     }
 
@@ -158,15 +184,14 @@ class FrameRun {
         Region region{frame_, areas_[r], statistics, instruments_, &scratch_};
         body_(region);
         region.targets().report_overflow(statistics.published);
-        RegionShortcuts shortcuts{region};
-        shortcuts.write_image(statistics.published, result_.color);
+        write_pictures(region, statistics.published);
         RegionRun& kept = regions_[r];
-        if (frame_.nearest_depth && kept.runs == 0) shortcuts.write_image(shortcuts.nearest_depth(), result_.depth);
+        if (frame_.nearest_depth && kept.runs == 0) write_nearest(region);
         kept.fragments += statistics.fragments_drawn;
         kept.statistics = std::move(statistics);
         ++kept.runs;
         const Clock::time_point ended = Clock::now();
-        if (callbacks_.ended) callbacks_.ended(region, r, result_.color);
+        if (callbacks_.ended) callbacks_.ended(region, r, result_);
         time_in_bodies_ += (ended - start).count();
         time_in_watch_ += (Clock::now() - ended).count();
         show(r);
@@ -192,7 +217,8 @@ class FrameRun {
             std::size_t next = d + 1;
             const std::vector<Decision>& own = r.loops[loop].decisions;
             if (own.size() <= next || own[d].answer != answer) continue;
-            while (next < own.size() && continues(frame_.termination, frame_.rect(), own[next].own)) ++next;
+            while (next < own.size() && continues(frame_.termination, frame_.rect(), own[next].own, frame_.samples()))
+                ++next;
             longest = std::max(longest, next - d - 1);
         }
         return longest;
@@ -259,7 +285,7 @@ class FrameRun {
                 anyone = true;
             }
             if (!anyone) return;
-            answers.push_back(continues(frame_.termination, frame_.rect(), sum));
+            answers.push_back(continues(frame_.termination, frame_.rect(), sum, frame_.samples()));
             std::vector<std::size_t> again;
             for (std::size_t r = 0; r < regions_.size(); ++r) {
                 const LoopStatistics& own = regions_[r].statistics.loops[loop];

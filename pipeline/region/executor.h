@@ -30,8 +30,8 @@ using Body = std::function<void(Region&)>;  // called once per region, never per
 struct RegionCallbacks {
     // The regions that will run: tiles and parts of tiles, or the frame. The other functions refer to them by index.
     std::function<void(std::span<const RegionArea>)> begun{};
-    // Region `region` has ended, and its part of `color` is written.
-    std::function<void(Region&, std::size_t region, const Image& color)> ended{};
+    // Region `region` has ended, and its part of the pictures of `result` is written.
+    std::function<void(Region&, std::size_t region, const FrameResult& result)> ended{};
     // Region `region` is blank and did not run: its result is that of region `like`, which has the same size.
     std::function<void(std::size_t like, std::size_t region)> alike{};
 };

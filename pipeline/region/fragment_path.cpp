@@ -11,7 +11,7 @@ namespace {
 // The state that the texture shader reads in addition to its stages: the depth range and clamp of the draw list, the
 // format of a replaced depth, and each unit's depth texture, either an image of the caller or a depth target of this
 // region.
-ShaderDevice device_of(const Region& region, const ShaderStages& stages) {
+ShaderDevice device_of(const Region& region, const ShaderStages& stages, std::size_t sample) {
     const rasterizer::RasterState& raster = region.frame().transparent->geometry.state;
     ShaderDevice device;
     device.profile = &region.profile();
@@ -26,7 +26,7 @@ ShaderDevice device_of(const Region& region, const ShaderStages& stages) {
             texels = DepthTexels{*texture.depth_image};
             texels.bottom_up = texture.bottom_up;
         } else if (texture.depth.exists()) {
-            texels = region.targets().depth_texels(texture.depth);
+            texels = region.targets().depth_texels(texture.depth, sample);
         }
         texels.is_eight_bit = texture.eight_bit_depth;
     }
@@ -38,13 +38,15 @@ ShaderDevice device_of(const Region& region, const ShaderStages& stages) {
 FragmentPathProgram::FragmentPathProgram(const Region& region, const FragmentPath& path)
     : path_{path},
       ops_{consistent_operations(path.shader)},
-      device_{device_of(region, path.shader)},
+      pixels_{static_cast<std::uint32_t>(region.rect().area())},
       combiners_{path.combiners},
       results_{std::make_unique<ShaderResults>()} {
     // Depth replace is a stage of NV_texture_shader: a profile without it has no texture shader at all
     // (pipeline/reference/devices.md 6).
     if (auto lacking = check(region.profile(), Feature::depth_replace))
         throw Refused{region.profile(), {"texture shaders", lacking->extension, lacking->way_out}};
+    for (std::size_t sample = 0; sample < region.samples(); ++sample)
+        devices_.push_back(device_of(region, path.shader, sample));
 }
 
 // A disabled stage gets no texture, so that it neither counts loads nor creates a feedback loop. Colours are needed as
@@ -57,11 +59,13 @@ void FragmentPathProgram::apply(PassState& state) const {
         state.textures[u] = ops_[u] == ShaderOp::none ? Target{} : path_.shader[u].texture.depth;
 }
 
-// CULL_FRAGMENT or a depth out of range kills a fragment (texture-shader.md 6 and 7). Combiners also run on dead lanes,
+// Coordinates are not recorded, so the batch has elements of one sample. CULL_FRAGMENT or a depth out of range kills a
+// fragment (texture-shader.md 6 and 7). Combiners also run on dead lanes,
 // whose colours are never stored.
 void FragmentPathProgram::operator()(const FragmentBatch& in, const Loads&, Outputs& out) {
     const auto count = static_cast<std::size_t>(in.count);
-    run_texture_shader(path_.shader, ops_, device_, in, *results_);
+    if (count == 0) return;
+    run_texture_shader(path_.shader, ops_, devices_[in.pixel[0] / pixels_], in, *results_);
     for (std::size_t i = 0; i < count; ++i) out.alive[i] &= results_->alive[i];
     if (replaces_depth(ops_)) {
         std::copy_n(results_->code.begin(), count, out.depth.begin());

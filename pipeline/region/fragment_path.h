@@ -8,6 +8,7 @@
 // Tests    tests/pipeline/region/fragment_path_test.cpp, tests/peeling/listing2_test.cpp
 #pragma once
 #include <memory>
+#include <vector>
 
 #include "pipeline/geforce3/combiner.h"
 #include "pipeline/geforce3/texture_shader.h"
@@ -36,7 +37,8 @@ class FragmentPathProgram {
   private:
     FragmentPath path_;
     ShaderOps ops_;
-    ShaderDevice device_;
+    std::uint32_t pixels_;
+    std::vector<ShaderDevice> devices_;  // by sample, whose depth targets it reads
     CombinerUnit combiners_;
     std::unique_ptr<ShaderResults> results_;
 };

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "pipeline/frame/sample_group.h"
 #include "pipeline/region/region_scratch.h"
 
 namespace strata::pipeline {
@@ -29,11 +28,12 @@ void RegionShared::trace(const TraceEntry& entry) const {
     if (const Observer* o = instruments.observer; o != nullptr && o->traced) o->traced(region, entry);
 }
 
-void RegionShared::report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel, std::string detail) const {
-    if (pixels == 0) return;
+void RegionShared::report(Fault fault, std::uint64_t elements, std::uint32_t first, std::string detail) const {
+    if (elements == 0) return;
     const auto width = static_cast<std::uint32_t>(rect().width());
-    merge(statistics.diagnostics, {fault, pixels, rect().x0 + static_cast<int>(first_pixel % width),
-                                   rect().y0 + static_cast<int>(first_pixel / width), std::move(detail)});
+    const std::uint32_t pixel = first % static_cast<std::uint32_t>(pixels());
+    merge(statistics.diagnostics, {fault, elements, rect().x0 + static_cast<int>(pixel % width),
+                                   rect().y0 + static_cast<int>(pixel / width), std::move(detail)});
 }
 
 // The trace is empty after the opaque scene.
@@ -47,10 +47,8 @@ Region::Region(const Frame& frame, const RegionArea& area, RegionStatistics& sta
       source_{shared_, targets_, stages_},
       loop_{shared_, targets_} {
     scratch_->trace.start(frame.trace_bytes);
-    if (instruments.samples.group != nullptr)
-        instruments.samples.group->set_targets(instruments.samples.sample, targets_);
     const bool is_empty =
-        frame.opaque == nullptr || (!shared_.is_frame() && frame.opaque->geometry.bin(area.tile).empty());
+        frame.opaque == nullptr || (!shared_.is_frame() && frame.opaque->triangles_in(area.tile) == 0);
     if (!is_empty) draw_opaque();
 }
 
@@ -94,7 +92,6 @@ PassState Region::altered(const PassState& state, PassKind kind) {
 
 void Region::end_pass(const PassState& state, PassKind kind, const DrawCounts& drawn) {
     stages_.close_cache();
-    stages_.meet_samples(state);
     if (const Alteration* a = shared_.alteration(); a != nullptr && a->drawn) a->drawn(kind, drawn.passed.own_);
     shared_.show({.step = kind == PassKind::geometry ? Step::geometry : Step::full_screen,
                   .state = &state,

@@ -37,6 +37,9 @@ class Region {
     [[nodiscard]] const Frame& frame() const noexcept { return shared_.frame; }
     [[nodiscard]] const DeviceProfile& profile() const noexcept { return shared_.profile(); }
     [[nodiscard]] rasterizer::Rect rect() const noexcept { return shared_.rect(); }
+    // Targets have an element for every sample of every pixel: sample * rect().area() + pixel.
+    [[nodiscard]] std::size_t samples() const noexcept { return shared_.samples(); }
+    [[nodiscard]] std::size_t elements() const noexcept { return shared_.elements(); }
 
     // Contents are 0; targets are created in the same order in every region. Throws Refused for more samples than the
     // profile has.
@@ -97,9 +100,9 @@ class Region {
     template <FragmentProgram P>
     void trace_pixels(Target read, P&& program);
     void trace(const TraceEntry& entry) { shared_.trace(entry); }  // one step that is not part of a pass
-    // `pixels` pixels of this region, the first of them at region index `first_pixel`.
-    void report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel, std::string detail) {
-        shared_.report(fault, pixels, first_pixel, std::move(detail));
+    // `elements` of this region, the first of them at index `first`.
+    void report(Fault fault, std::uint64_t elements, std::uint32_t first, std::string detail) {
+        shared_.report(fault, elements, first, std::move(detail));
     }
     void report(Fault fault, std::string detail);  // without a pixel
 
@@ -133,7 +136,6 @@ template <FragmentProgram P>
 DrawCounts Region::draw(const PassState& given, const PreparedDraw& list, P&& program) {
     const PassState state = altered(given, PassKind::geometry);
     stages_.begin_pass(state, PassKind::geometry);
-    stages_.meet_samples(state);
     if (state.selection.keeps == KeptFragments::everything || !source_.find_fragments(state, list))
         return draw_everything(state, list, program);
     return shared_.instruments.check_selections ? checked([&] { return draw_visits(state, program); },
@@ -178,7 +180,6 @@ template <FragmentProgram P>
 DrawCounts Region::full_screen(const PassState& given, P&& program) {
     const PassState state = altered(given, PassKind::full_screen);
     stages_.begin_pass(state, PassKind::full_screen);
-    stages_.meet_samples(state);
     stages_.open_cache(state);
     DrawCounts drawn;
     std::size_t next = 0;

@@ -32,7 +32,7 @@ void Stages::extra_tests(const PassState& state, const FragmentBatch& batch, Lan
                                      batch.code.data(), alive.data()));
     }
     if (!shared_.runs_extra(Effect::stencil_test, state.stencil.enabled)) return;
-    if (!extra_stencil_) extra_stencil_.emplace(Format::s8, 1, shared_.rect().area());
+    if (!extra_stencil_) extra_stencil_.emplace(Format::s8, 1, shared_.elements());
     RegionScratch& s = shared_.scratch;
     const Texels stencil{extra_stencil_->stencil_plane(0), 1, 32};
     gather_codes(stencil, at_pixels, &s.stencil_stored);

@@ -2,7 +2,6 @@
 // executor.cpp.
 #include "pipeline/region/region_loop.h"
 
-#include "pipeline/frame/sample_group.h"
 #include "pipeline/frame/termination.h"
 #include "pipeline/region/region_shared.h"
 #include "pipeline/region/region_targets.h"
@@ -26,7 +25,6 @@ bool Loop::any(Count count, Idle idle) {
     if (shared_.frame.termination.rule == TerminationRule::fixed) return true;  // no query at all
     if (shared_.instruments.log_passes) ++shared_.statistics.pass_log.queries;
     if (!shared_.instruments.trust_idle) idle = Idle::no;
-    if (SampleGroup* const group = shared_.instruments.samples.group) count.own_ = group->sum(count.own_);
     LoopStatistics& loop = shared_.statistics.loops.back();
     const std::size_t index = loop.decisions.size(), number = shared_.statistics.loops.size() - 1;
     const bool is_known = number < shared_.statistics.script.size() && index < shared_.statistics.script[number].size();
@@ -35,7 +33,7 @@ bool Loop::any(Count count, Idle idle) {
         answer = shared_.statistics.script[number][index];
     } else if (shared_.is_frame()) {
         answer =
-            continues(shared_.frame.termination, shared_.frame.rect(), count.own_, shared_.instruments.samples.count);
+            continues(shared_.frame.termination, shared_.frame.rect(), count.own_, shared_.frame.samples());
     } else {
         answer = count.own_ > 0;
     }
@@ -50,21 +48,17 @@ bool Loop::any(Count count, Idle idle) {
 bool Loop::limit_reached(int passes) const {
     const int fixed = shared_.frame.termination.rule == TerminationRule::fixed ? shared_.frame.termination.passes : 0;
     const int after = shared_.statistics.geometry_passes + passes;
-    const bool is_reached =
-        (shared_.frame.max_passes > 0 && after > shared_.frame.max_passes) || (fixed > 0 && after > fixed);
-    SampleGroup* const group = shared_.instruments.samples.group;
-    return group == nullptr ? is_reached
-                            : group->sum(is_reached ? 1 : 0) == static_cast<std::uint64_t>(group->samples());
+    return (shared_.frame.max_passes > 0 && after > shared_.frame.max_passes) || (fixed > 0 && after > fixed);
 }
 
 void Loop::keep_layer(Target color, Target depth, Side side) {
     if (!shared_.frame.keep_layers) return;
-    shared_.statistics.layers.push_back({targets_.image(color), targets_.image(depth), side});
+    shared_.statistics.layers.push_back({targets_.resolved(color), targets_.resolved(depth), side});
 }
 
 void Loop::keep_no_layer(Target color, Target depth) {
     if (!shared_.frame.keep_layers) return;
-    shared_.statistics.layers.push_back({targets_.image(color), targets_.image(depth), Side::front});
+    shared_.statistics.layers.push_back({targets_.resolved(color), targets_.resolved(depth), Side::front});
     ++shared_.statistics.idle_layers;
 }
 

@@ -26,6 +26,7 @@ static_assert(rasterizer::row_padding <= spare_words);
 }  // namespace
 
 bool FragmentSource::may_walk_rows(const PreparedDraw& list) const {
+    // The geometries of all samples have one state.
     return may_leave_batches(shared_) && row_walk_suits(list.geometry, shared_.frame.key_request(), shared_.rect());
 }
 
@@ -50,13 +51,19 @@ bool FragmentSource::depth_suits_rows(const PassState& state) {
 }
 
 rasterizer::DepthDrawn FragmentSource::draw_depth_rows(const PassState& state) {
-    const rasterizer::Geometry& geometry = shared_.frame.transparent->geometry;
     stages_.begin_pass(state, PassKind::geometry);
-    const rasterizer::DepthDrawn rows =
-        rasterizer::draw_depth_rows(geometry, geometry.bin(shared_.area.tile), shared_.frame.key_request(),
-                                    shared_.rect(), targets_.at(state.depth_target).depth_plane(0).words);
-    shared_.statistics.fragments_drawn += rows.fragments;
-    return rows;
+    Word* const codes = targets_.at(state.depth_target).depth_plane(0).words;
+    rasterizer::DepthDrawn all;
+    for (std::size_t sample = 0; sample < shared_.samples(); ++sample) {
+        const rasterizer::Geometry& geometry = shared_.frame.transparent->of_sample(sample);
+        const rasterizer::DepthDrawn rows =
+            rasterizer::draw_depth_rows(geometry, geometry.bin(shared_.area.tile), shared_.frame.key_request(),
+                                        shared_.rect(), codes + sample * shared_.pixels());
+        all.fragments += rows.fragments;
+        all.passed += rows.passed;
+    }
+    shared_.statistics.fragments_drawn += all.fragments;
+    return all;
 }
 
 // Rows add to halves, rounded to nearest, and to binary32; colours must be exact planes without texture or shadow
@@ -84,20 +91,26 @@ rasterizer::DepthDrawn FragmentSource::draw_sum_rows(const PassState& state) {
     const PreparedDraw& list = *shared_.frame.transparent;
     stages_.begin_pass(state, PassKind::geometry);
     // For triangles of few pixels, testing each fragment takes less time than bounding all triangles.
-    const bool has_few_pixels = 4 * list.geometry.bin(shared_.area.tile).size() > shared_.rect().area();
+    const bool has_few_pixels = 4 * list.triangles_in(shared_.area.tile) > shared_.elements();
     const bool is_open = has_few_pixels || depth_outcome(state, list) == DepthOutcome::open;
     const bool has_count_target = state.color[1].exists();
     const Texels sums = targets_.at(state.color[0]).texels(0);
-    SumPlanes planes{sums.words() == 4 ? SumWords::binary32 : SumWords::halves,
-                     {},
-                     has_count_target ? targets_.at(state.color[1]).texels(0).plane(0).words : nullptr,
-                     is_open ? targets_.at(state.depth_target).depth_plane(0).words : nullptr,
-                     shared_.profile().denormals == DenormalRule::flush};
-    for (std::size_t word = 0; word < sums.words(); ++word) planes.sums[word] = sums.plane(word).words;
-    const rasterizer::DepthDrawn rows = add_sum_rows(list.geometry, list.geometry.bin(shared_.area.tile),
-                                                     shared_.frame.key_request(), shared_.rect(), planes);
-    shared_.statistics.fragments_drawn += rows.fragments;
-    return rows;
+    rasterizer::DepthDrawn all;
+    for (std::size_t sample = 0; sample < shared_.samples(); ++sample) {
+        const std::size_t first = sample * shared_.pixels();
+        SumPlanes planes{sums.words() == 4 ? SumWords::binary32 : SumWords::halves,
+                         {},
+                         has_count_target ? targets_.at(state.color[1]).texels(0).plane(0).words + first : nullptr,
+                         is_open ? targets_.at(state.depth_target).depth_plane(0).words + first : nullptr,
+                         shared_.profile().denormals == DenormalRule::flush};
+        for (std::size_t word = 0; word < sums.words(); ++word) planes.sums[word] = sums.plane(word).words + first;
+        const rasterizer::DepthDrawn rows = add_sum_rows(list.of_sample(sample), triangles_of(list, sample),
+                                                         shared_.frame.key_request(), shared_.rect(), planes);
+        all.fragments += rows.fragments;
+        all.passed += rows.passed;
+    }
+    shared_.statistics.fragments_drawn += all.fragments;
+    return all;
 }
 
 }  // namespace strata::pipeline

@@ -65,7 +65,7 @@ bool bounds_suit(const PassState& state, DepthKey key) {
 bool FragmentSource::find_fragments(const PassState& state, const PreparedDraw& list) {
     const FragmentSelection& selection = state.selection;
     const bool is_plain_run =
-        may_record(list) && !shared_.instruments.log_passes && shared_.frame.termination.rule != TerminationRule::ratio;
+        may_record(list) && !shared_.frame.loads_others() && !shared_.instruments.log_passes && shared_.frame.termination.rule != TerminationRule::ratio;
     const bool tests_codes = state.depth.enabled && selection.keeps != KeptFragments::interval;
     if (!is_plain_run || state.replaces_depth || !has_tests_of_its_kind(state, stages_.samples()) ||
         (tests_codes && shared_.frame.key != DepthKey::stored_code) || !bounds_suit(state, shared_.frame.key) ||
@@ -101,7 +101,7 @@ bool FragmentSource::sort_for(const PassState& state) {
     if (!s.sorted.is_of(request)) std::swap(s.sorted, s.other_sorted);
     if (s.sorted.is_of(request)) return s.sorted.is_sorted();
     const std::uint64_t taken = s.fragments.bytes() + s.other_sorted.bytes();
-    return s.sorted.sort(s.fragments, request, shared_.rect().area(),
+    return s.sorted.sort(s.fragments, request, shared_.elements(),
                          shared_.frame.replay.bytes - std::min(taken, shared_.frame.replay.bytes),
                          request.by_submission ? targets_.codes_of(targets_.opaque_depth()) : nullptr);
 }
@@ -202,18 +202,24 @@ void FragmentSource::finish_submitted(const PassState& state) {
     }
 }
 
-// Computes the window positions of a batch's pixels from their indices. A tile has at most 2^14 pixels in rows of up to
+// Computes the window positions of a batch's elements from their indices. A tile has at most 2^14 pixels in rows of up to
 // 2^7, so the reciprocal's error, below 2^-21 per pixel, adds up to less than one pixel's share of a row.
 void FragmentSource::find_positions(FragmentBatch& batch) const {
     const auto width = static_cast<std::uint32_t>(shared_.rect().width()),
                x0 = static_cast<std::uint32_t>(shared_.rect().x0);
     const std::uint32_t reciprocal = ((1u << 21) + width - 1) / width,
-                        y0 = static_cast<std::uint32_t>(shared_.rect().y0);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
-        const std::uint32_t row = batch.pixel[i] * reciprocal >> 21;
-        batch.x[i] = static_cast<std::uint16_t>(x0 + batch.pixel[i] - row * width);
+                        y0 = static_cast<std::uint32_t>(shared_.rect().y0),
+                        pixels = static_cast<std::uint32_t>(shared_.pixels());
+    const auto set = [&](std::size_t i, std::uint32_t pixel) {
+        const std::uint32_t row = pixel * reciprocal >> 21;
+        batch.x[i] = static_cast<std::uint16_t>(x0 + pixel - row * width);
         batch.y[i] = static_cast<std::uint16_t>(y0 + row);
-    }
+    };
+    const auto count = static_cast<std::size_t>(batch.count);
+    if (shared_.samples() == 1)
+        for (std::size_t i = 0; i < count; ++i) set(i, batch.pixel[i]);
+    else
+        for (std::size_t i = 0; i < count; ++i) set(i, batch.pixel[i] % pixels);
 }
 
 // Stored codes are the keys, so they need not be fetched.

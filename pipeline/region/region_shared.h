@@ -14,7 +14,6 @@
 #include "pipeline/frame/observer.h"
 #include "pipeline/frame/region_area.h"
 #include "pipeline/frame/region_statistics.h"
-#include "pipeline/frame/sample_group.h"
 #include "pipeline/frame/trace.h"
 
 namespace strata::pipeline {
@@ -32,6 +31,10 @@ struct RegionShared {
 
     [[nodiscard]] const DeviceProfile& profile() const noexcept { return *frame.profile; }
     [[nodiscard]] rasterizer::Rect rect() const noexcept { return area.rect; }
+    // Element sample * pixels() + pixel of a target is that sample of a pixel; with one sample, an element is a pixel.
+    [[nodiscard]] std::size_t samples() const noexcept { return samples_; }
+    [[nodiscard]] std::size_t pixels() const noexcept { return area.rect.area(); }
+    [[nodiscard]] std::size_t elements() const noexcept { return samples_ * pixels(); }
     // Literal execution: the frame is one region.
     [[nodiscard]] bool is_frame() const noexcept { return area.extent == Extent::frame; }
     // True if depths outside the depth range have codes (rasterizer/reference/depth.md 2.9).
@@ -58,13 +61,25 @@ struct RegionShared {
         event.is_counted = statistics.counts;
         event.iteration = statistics.iterations;
         instruments.observer->step(region, event);
-        // So every sample has made a step before any makes the next.
-        if (instruments.samples.group != nullptr && event.is_counted) instruments.samples.group->meet();
     }
     void trace(const TraceEntry& entry) const;  // and reports it
-    // Diagnostics refer to pixels of the window, not of the region: `pixels` of them, the first at region index
-    // `first_pixel`.
-    void report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel, std::string detail) const;
+    // Diagnostics refer to pixels of the window, not of the region: `elements` of them, the first at region index
+    // `first`.
+    void report(Fault fault, std::uint64_t elements, std::uint32_t first, std::string detail) const;
+
+  private:
+    friend class Region;
+    RegionShared(const Frame& of, const RegionArea& a, RegionStatistics& s, const Instruments& i, RegionScratch& memory,
+                 Region& r)
+        : frame{of},
+          area{a},
+          statistics{s},
+          instruments{i},
+          scratch{memory},
+          region{r},
+          samples_{static_cast<std::size_t>(of.samples())} {}
+
+    std::size_t samples_;
 };
 
 }  // namespace strata::pipeline

@@ -17,13 +17,15 @@ Trace& RegionShortcuts::trace() noexcept { return region_.scratch_->trace; }
 
 void RegionShortcuts::count_coverage(std::span<std::uint32_t> coverage) {
     constexpr FragmentNeeds nothing{false, false, false, false, false, false};
-    auto add = [&](FragmentBatch& batch) {
-        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++coverage[batch.pixel[i]];
-    };
     const Frame& frame = region_.frame();
-    const rasterizer::Geometry& geometry = frame.transparent->geometry;
-    region_.source_.rasterizer().draw(geometry, region_.source_.triangles_of(*frame.transparent), frame.key_request(),
-                                      nothing, rasterizer::BatchSink{add});
+    for (std::size_t sample = 0; sample < region_.samples(); ++sample) {
+        auto add = [&, first = sample * region_.rect().area()](FragmentBatch& batch) {
+            for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++coverage[first + batch.pixel[i]];
+        };
+        region_.source_.rasterizer().draw(frame.transparent->of_sample(sample),
+                                          region_.source_.triangles_of(*frame.transparent, sample),
+                                          frame.key_request(), nothing, rasterizer::BatchSink{add});
+    }
 }
 
 // Coverage is counted first, before MASK, so that the list is allocated once and not moved while it grows.
@@ -31,7 +33,7 @@ std::vector<CapturedFragment> RegionShortcuts::capture(Counting counting) {
     std::optional<UncountedWork> look;
     if (counting == Counting::silent) look.emplace(region_.shared_.statistics);
     std::uint64_t fragments = 0;
-    std::vector<std::uint32_t> coverage(region_.rect().area());
+    std::vector<std::uint32_t> coverage(region_.elements());
     count_coverage(coverage);
     for (const std::uint32_t of_pixel : coverage) fragments += of_pixel;
     std::vector<CapturedFragment> all;
@@ -39,15 +41,17 @@ std::vector<CapturedFragment> RegionShortcuts::capture(Counting counting) {
     PassState state;
     state.needs = {
         .shader_z = true, .code = true, .exact_code = true, .color = true, .texcoord = false, .facing = false};
+    const auto pixels = static_cast<std::uint32_t>(region_.rect().area());
     static_cast<void>(region_.draw(state, [&](const FragmentBatch& in, const Loads&, Outputs& out) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
             if (out.alive[i] == 0) continue;
-            all.push_back({in.pixel[i],
+            all.push_back({in.pixel[i] % pixels,
                            in.primitive[i],
                            in.code[i],
                            in.exact_code[i],
                            in.shader_z[i],
-                           {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]}});
+                           {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]},
+                           in.pixel[i] / pixels});
         }
     }));
     return all;
@@ -55,8 +59,8 @@ std::vector<CapturedFragment> RegionShortcuts::capture(Counting counting) {
 
 // Each part has twice as many triangles as the previous one. A program that needs little can stop early, and few
 // batches end early.
-void RegionShortcuts::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink,
-                                     const bool& goes_on) {
+void RegionShortcuts::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, std::size_t sample,
+                                     rasterizer::BatchSink sink, const bool& goes_on) {
     const PreparedDraw& list = *region_.frame().transparent;
     const MaterialNeeds& materials = region_.source_.needs_of_tile(list);
     needs.color |= materials.color;  // MASK decides which fragments exist
@@ -65,10 +69,10 @@ void RegionShortcuts::rasterize_band(FragmentNeeds needs, const rasterizer::Rect
     region_.stages_.set_material(needs.texcoord, takes_shadow);
     if (takes_shadow) needs.units |= list.needs.shadow;
     rasterizer::TileRasterizer rows{band};
-    auto triangles = region_.source_.triangles_of(list);
+    auto triangles = region_.source_.triangles_of(list, sample);
     for (std::size_t part = 64; goes_on && !triangles.empty(); part *= 2) {
         part = std::min(part, triangles.size());
-        rows.draw(list.geometry, triangles.first(part), region_.frame().key_request(), needs, sink);
+        rows.draw(list.of_sample(sample), triangles.first(part), region_.frame().key_request(), needs, sink);
         triangles = triangles.subspan(part);
     }
 }
@@ -126,11 +130,12 @@ void RegionShortcuts::store_pixels(Target target, std::uint32_t first, int pixel
     region_.targets_.at(target).scatter(s.screen.pixel, s.alive, pixels, 0, 0xfu, codes);
 }
 
-void RegionShortcuts::write_image(Target target, Image& frame) const {
+void RegionShortcuts::write_image(Target target, std::size_t sample, Image& frame) const {
     const rasterizer::Rect& whole = region_.frame().rect();
     const rasterizer::Rect own = region_.rect();
     for (int y = 0; y < own.height(); ++y)
-        region_.targets_.read_row(target, y, &frame.codes[frame.index(own.x0 - whole.x0, own.y0 - whole.y0 + y)]);
+        region_.targets_.read_row(target, y, &frame.codes[frame.index(own.x0 - whole.x0, own.y0 - whole.y0 + y)],
+                                 sample);
     finish_words();
 }
 

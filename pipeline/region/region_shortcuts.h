@@ -29,12 +29,13 @@ class RegionShortcuts {
   public:
     explicit RegionShortcuts(Region& region) noexcept : region_{region} {}
 
-    // Adds to `coverage[i]` the number of fragments of pixel i of the region, before MASK.
+    // Adds to `coverage[i]` the number of fragments of element i of the region, before MASK.
     void count_coverage(std::span<std::uint32_t> coverage);
-    // Calls program(batch, outputs) for the list's fragments in `band`, a part of this region, after MASK; `pixel` is
+    // Calls program(batch, outputs) for a sample's fragments in `band`, a part of this region, after MASK; `pixel` is
     // relative to the band, row by row. Stops once the program returns false, and then returns false.
     template <class P>
-    [[nodiscard]] bool visit_batches(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program);
+    [[nodiscard]] bool visit_batches(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band,
+                                     std::size_t sample, P&& program);
     // The tile's fragments of the list, with the values that `needs` names; empty if that is not recorded or not
     // sortable.
     [[nodiscard]] std::optional<SortedRecord> sorted_record(const rasterizer::FragmentNeeds& needs);
@@ -48,7 +49,7 @@ class RegionShortcuts {
         work();
     }
 
-    // Words per pixel of the region's targets so far, including all samples.
+    // Words per pixel of the region's targets so far, including a target's own samples, for one sample of the frame.
     [[nodiscard]] std::uint64_t target_words() const;
     void count_passes(const PassCount& passes);  // passes that another computation replaced
     // Records whether a whole loop was computed from the record: null, or the reason why not, as text.
@@ -62,24 +63,26 @@ class RegionShortcuts {
 
     // An rgba8 target's codes: one word per pixel, red in the lowest byte, followed by spare_words.
     [[nodiscard]] Word* words(Target target) { return region_.targets_.at(target).depth_plane(0).words; }
-    // Writes consecutive pixels, all channels, sample 0.
+    // Writes consecutive elements, all channels, sample 0 of the target's own.
     void store_pixels(Target target, std::uint32_t first, int pixels, const ColorCodes& codes);
     // Writes a pixel's colour, converted like a write without blending.
     void store_pixel(Target target, std::uint32_t pixel, const Rgba& color);
 
     // The depth of the nearest visible key: the frame's depth image. Never counted.
     [[nodiscard]] Target nearest_depth();
-    void write_image(Target target, Image& frame) const;  // into this region's rectangle of an image of the frame
+    // Writes a sample of a target into this region's rectangle of an image of the frame.
+    void write_image(Target target, std::size_t sample, Image& frame) const;
 
   private:
-    void rasterize_band(rasterizer::FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink,
-                        const bool& goes_on);
+    void rasterize_band(rasterizer::FragmentNeeds needs, const rasterizer::Rect& band, std::size_t sample,
+                        rasterizer::BatchSink sink, const bool& goes_on);
 
     Region& region_;
 };
 
 template <class P>
-bool RegionShortcuts::visit_batches(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program) {
+bool RegionShortcuts::visit_batches(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band,
+                                    std::size_t sample, P&& program) {
     const UncountedWork look{region_.shared_.statistics};
     bool goes_on = true;
     auto sink = [&](FragmentBatch& batch) {
@@ -88,7 +91,7 @@ bool RegionShortcuts::visit_batches(const rasterizer::FragmentNeeds& needs, cons
         region_.stages_.shade(*region_.frame().transparent, batch, out);
         goes_on = program(static_cast<const FragmentBatch&>(batch), static_cast<const Outputs&>(out));
     };
-    rasterize_band(needs, band, rasterizer::BatchSink{sink}, goes_on);
+    rasterize_band(needs, band, sample, rasterizer::BatchSink{sink}, goes_on);
     return goes_on;
 }
 

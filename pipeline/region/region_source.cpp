@@ -31,23 +31,26 @@ const MaterialNeeds& FragmentSource::needs_of_tile(const PreparedDraw& list) {
     const bool is_transparent = &list == shared_.frame.transparent, is_opaque = &list == shared_.frame.opaque;
     if (shared_.is_frame() || list.needs == MaterialNeeds{} || !(is_transparent || is_opaque)) return list.needs;
     auto& needs = is_transparent ? transparent_needs_ : opaque_needs_;
-    if (!needs) needs = needs_of(list, list.geometry.bin(shared_.area.tile));
+    if (!needs) {
+        needs = MaterialNeeds{};
+        for (std::size_t sample = 0; sample < shared_.samples(); ++sample)
+            *needs |= needs_of(list, triangles_of(list, sample), sample);
+    }
     return *needs;
 }
 
 // Indices of the triangles that may touch the region, in submission order.
-std::span<const std::uint32_t> FragmentSource::triangles_of(const PreparedDraw& list) const noexcept {
-    return shared_.is_frame() ? std::span<const std::uint32_t>{list.geometry.all_triangles}
-                              : list.geometry.bin(shared_.area.tile);
+std::span<const std::uint32_t> FragmentSource::triangles_of(const PreparedDraw& list,
+                                                            std::size_t sample) const noexcept {
+    const rasterizer::Geometry& geometry = list.of_sample(sample);
+    return shared_.is_frame() ? std::span<const std::uint32_t>{geometry.all_triangles}
+                              : geometry.bin(shared_.area.tile);
 }
 
-// Without ranges all triangles are drawn. Triangles are in submission order, and the pieces of a clipped one have its
-// index, so a range of primitives is a contiguous range of triangles.
+// Sample by sample, each in submission order: a batch has elements of one sample.
 void FragmentSource::rasterize(const PreparedDraw& list, FragmentNeeds needs,
                                std::span<const PrimitiveRange> primitives, rasterizer::BatchSink given) {
     stages_.set_material(needs.color && needs_of_tile(list).texcoord, needs.color && list.needs.shadow != 0);
-    const auto& geometry = list.geometry;
-    const auto triangles = triangles_of(list);
     auto checked = [&](FragmentBatch& batch) {
         require_range(batch);
         given(batch);
@@ -55,6 +58,22 @@ void FragmentSource::rasterize(const PreparedDraw& list, FragmentNeeds needs,
     // a silent query does not order fragments
     const bool checks = shared_.wraps_depths() && needs.code && (shared_.statistics.counts || from_ == From::recording);
     const rasterizer::BatchSink sink = checks ? rasterizer::BatchSink{checked} : given;
+    rasterize_sample(list, 0, needs, primitives, sink);
+    for (std::size_t sample = 1; sample < shared_.samples(); ++sample) {
+        auto moved = [&, first = static_cast<std::uint32_t>(sample * shared_.pixels())](FragmentBatch& batch) {
+            for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) batch.pixel[i] += first;
+            sink(batch);
+        };
+        rasterize_sample(list, sample, needs, primitives, rasterizer::BatchSink{moved});
+    }
+}
+
+// Without ranges all triangles are drawn. Triangles are in submission order, and the pieces of a clipped one have its
+// index, so a range of primitives is a contiguous range of triangles.
+void FragmentSource::rasterize_sample(const PreparedDraw& list, std::size_t sample, const FragmentNeeds& needs,
+                                      std::span<const PrimitiveRange> primitives, rasterizer::BatchSink sink) {
+    const rasterizer::Geometry& geometry = list.of_sample(sample);
+    const auto triangles = triangles_of(list, sample);
     if (primitives.empty()) rasterizer_->draw(geometry, triangles, shared_.frame.key_request(), needs, sink);
     const auto before = [&](std::uint32_t triangle, std::uint32_t primitive) {
         return geometry.triangles[triangle].primitive < primitive;
@@ -97,8 +116,13 @@ bool FragmentSource::record(const PreparedDraw& list, const FragmentNeeds& needs
     const MaterialNeeds& materials = needs_of_tile(list);
     if (rows_have(kept) && may_walk_rows(list) && materials == MaterialNeeds{} &&
         shared_.profile().raster.color == rasterizer::ColorInterpolation::exact_plane) {
-        shared_.statistics.fragments_drawn +=
-            record_rows(fragments, list.geometry, triangles_of(list), shared_.frame.key_request(), shared_.rect());
+        for (std::size_t sample = 0; sample < shared_.samples(); ++sample) {
+            const std::size_t first = fragments.size();
+            shared_.statistics.fragments_drawn +=
+                record_rows(fragments, list.of_sample(sample), triangles_of(list, sample),
+                            shared_.frame.key_request(), shared_.rect());
+            if (sample > 0) fragments.move_pixels(first, static_cast<std::uint32_t>(sample * shared_.pixels()));
+        }
         fragments.finish();
         return fragments.serves(needs);
     }
@@ -124,7 +148,7 @@ void FragmentSource::visit_all(const FragmentNeeds& needs, rasterizer::BatchSink
     FragmentBatch& batch = shared_.scratch.recorded;
     TileFragments::Reading& reading = shared_.scratch.reading;
     reading = {0, 0, std::move(reading.stamp)};
-    reading.stamp.assign(shared_.rect().area(), 0);
+    reading.stamp.assign(shared_.elements(), 0);
     Lanes<std::uint32_t> places;
     for (auto next = shared_.scratch.fragments.next_indices(reading, places); !next.empty();
          next = shared_.scratch.fragments.next_indices(reading, places)) {
@@ -149,7 +173,9 @@ DepthOutcome FragmentSource::depth_outcome(const PassState& state, const Prepare
     if (!is_plain || !has_bound || shared_.wraps_depths() || state.needs.code || !targets_.opaque_depth_is_cleared() ||
         shared_.is_frame() || shared_.frame.effects == Effects::all || &list != shared_.frame.transparent)
         return DepthOutcome::open;
-    const double bound = depth_bound(list.geometry, list.geometry.bin(shared_.area.tile));
+    double bound = 0;
+    for (std::size_t sample = 0; sample < shared_.samples(); ++sample)
+        bound = std::max(bound, depth_bound(list.of_sample(sample), triangles_of(list, sample)));
     const auto code = [&](float z) { return to_depth_code(z, depth.format, shared_.profile().raster.depth_rounding); };
     return code(static_cast<float>(bound)) < code(1.0f) ? DepthOutcome::passes : DepthOutcome::open;
 }
@@ -192,7 +218,8 @@ void FragmentSource::for_each_batch(const PreparedDraw& list, const PassState& s
 
 bool FragmentSource::record_sorted(const FragmentNeeds& needs) {
     const PreparedDraw& list = *shared_.frame.transparent;
-    return may_record(list) && targets_.has_ordered_surface() && record(list, needs) && sort_for({});
+    return may_record(list) && !shared_.frame.loads_others() && targets_.has_ordered_surface() &&
+           record(list, needs) && sort_for({});
 }
 
 }  // namespace strata::pipeline

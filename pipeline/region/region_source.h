@@ -56,9 +56,10 @@ class FragmentSource {
     // Records the transparent list with the values that `needs` names, sorted by the frame's key. Returns false if that
     // cannot be recorded or sorted.
     [[nodiscard]] bool record_sorted(const rasterizer::FragmentNeeds& needs);
-    // Indices of the triangles that may touch the region, in submission order; needs_of_tile: the needs of their
-    // materials.
-    [[nodiscard]] std::span<const std::uint32_t> triangles_of(const PreparedDraw& list) const noexcept;
+    // Indices of a sample's triangles that may touch the region, in submission order; needs_of_tile: the needs of the
+    // materials of all samples' triangles.
+    [[nodiscard]] std::span<const std::uint32_t> triangles_of(const PreparedDraw& list,
+                                                              std::size_t sample) const noexcept;
     [[nodiscard]] const MaterialNeeds& needs_of_tile(const PreparedDraw& list);
     [[nodiscard]] rasterizer::TileRasterizer& rasterizer() noexcept { return *rasterizer_; }
 
@@ -67,6 +68,8 @@ class FragmentSource {
 
     void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs,
                    std::span<const PrimitiveRange> primitives, rasterizer::BatchSink sink);
+    void rasterize_sample(const PreparedDraw& list, std::size_t sample, const rasterizer::FragmentNeeds& needs,
+                          std::span<const PrimitiveRange> primitives, rasterizer::BatchSink sink);
     void require_range(const FragmentBatch& batch) const;
     [[nodiscard]] bool may_record(const PreparedDraw& list) const;
     [[nodiscard]] bool record(const PreparedDraw& list, const rasterizer::FragmentNeeds& needs);

@@ -17,7 +17,6 @@
 #include "pipeline/frame/check_pass.h"
 #include "pipeline/frame/effects.h"
 #include "pipeline/frame/pass_counters.h"
-#include "pipeline/frame/sample_group.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shared.h"
 #include "pipeline/region/region_targets.h"
@@ -73,6 +72,9 @@ void Stages::begin_pass(const PassState& state, PassKind kind) {
     kind_ = kind;
     tallied_ = 0;
     check_pass(shared_.profile(), state, targets_.all());
+    if (loaded_sample() != LoadedSample::own && state.ordered_rmw && std::ranges::any_of(state.reads, &Target::exists))
+        throw Refused{shared_.profile(),
+                      {"loads of another sample from a target that the pass writes", "", "use --load-sample own"}};
     if (writes_depth(state.depth)) targets_.note_written(state.depth_target);
     depth_ = DepthOutcome::open;
     if (state.depth.enabled &&
@@ -92,23 +94,23 @@ void Stages::begin_pass(const PassState& state, PassKind kind) {
     for (std::size_t k = 0; k < state.color.size();
          ++k)  // a quad's traffic includes every pixel, whatever its program discards
         if (state.color[k].exists())
-            count_color_bytes(state.blend[k], targets_.at(state.color[k]), shared_.rect().area());
+            count_color_bytes(state.blend[k], targets_.at(state.color[k]), shared_.elements());
 }
 
 void Stages::count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels) {
     shared_.count(of_color(pixel_bytes(target), pixels, blending.enabled));
 }
 
-// The pixels of a full-screen pass, row by row. Window positions fit in 16 bits: a frame has at most 16,384 pixels per
-// side.
+// Window positions fit in 16 bits: a frame has at most 16,384 pixels per side.
 FragmentBatch* Stages::next_screen_batch(std::size_t& next) {
     FragmentBatch& batch = shared_.scratch.screen;
-    const std::size_t left = shared_.rect().area() - next;
-    const std::size_t count = std::min<std::size_t>(left, batch_capacity);
+    const std::size_t pixels = shared_.pixels();
+    if (next == shared_.elements()) return nullptr;
+    const std::size_t first = next % pixels, count = std::min<std::size_t>(pixels - first, batch_capacity);
     const auto width = static_cast<std::size_t>(shared_.rect().width());
     std::iota(batch.pixel.begin(), batch.pixel.begin() + static_cast<std::ptrdiff_t>(count), static_cast<Word>(next));
     for (std::size_t i = 0; i < count;) {
-        const std::size_t x = (next + i) % width, y = (next + i) / width, end = std::min(count, i + width - x);
+        const std::size_t x = (first + i) % width, y = (first + i) / width, end = std::min(count, i + width - x);
         const auto first_x = static_cast<std::uint16_t>(static_cast<std::size_t>(shared_.rect().x0) + x);
         for (std::size_t k = i; k < end; ++k) batch.x[k] = static_cast<std::uint16_t>(first_x + (k - i));
         std::fill(batch.y.begin() + static_cast<std::ptrdiff_t>(i), batch.y.begin() + static_cast<std::ptrdiff_t>(end),
@@ -117,7 +119,7 @@ FragmentBatch* Stages::next_screen_batch(std::size_t& next) {
     }
     next += count;
     batch.count = static_cast<int>(count);
-    return count > 0 ? &batch : nullptr;
+    return &batch;
 }
 
 // Colours are not cleared: a program writes the outputs for which its pass has targets.
@@ -158,22 +160,30 @@ void Stages::load(const PassState& state, const FragmentBatch& batch) {
         TargetStorage& from = targets_.at(state.reads[r]);
         shared_.count(of_loads(pixel_bytes(from), static_cast<std::uint64_t>(batch.count)));
         switch (loaded_sample()) {
-            case LoadedSample::own: load_target(from, r, batch); break;
-            case LoadedSample::zero:
-                load_target(shared_.instruments.samples.group->targets(0).at(state.reads[r]), r, batch);
-                break;
-            case LoadedSample::resolved: load_resolved(state.reads[r], r, batch); break;
+            case LoadedSample::own: load_target(from, r, batch.pixel, batch.count); break;
+            case LoadedSample::zero: load_target(from, r, elements_of(batch, 0), batch.count); break;
+            case LoadedSample::resolved: load_resolved(from, r, batch); break;
         }
-        if (shared_.instruments.once_more == Effect::loads) load_target(from, r, batch);
+        if (shared_.instruments.once_more == Effect::loads) load_target(from, r, batch.pixel, batch.count);
     }
 }
 
+// The elements of the batch's pixels at another sample.
+Lanes<std::uint32_t> Stages::elements_of(const FragmentBatch& batch, std::size_t sample) const noexcept {
+    const auto pixels = static_cast<std::uint32_t>(shared_.pixels());
+    Lanes<std::uint32_t> elements;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+        elements[i] = static_cast<std::uint32_t>(sample) * pixels + batch.pixel[i] % pixels;
+    return elements;
+}
+
 // A depth is loaded as its code. In a colour, channels that the format lacks read as 0, alpha as 1.
-void Stages::load_target(TargetStorage& from, std::size_t read, const FragmentBatch& batch) {
+void Stages::load_target(TargetStorage& from, std::size_t read, const Lanes<std::uint32_t>& elements, int count) {
     if (is_depth(from.format()))
-        return gather_codes(codes_in(from.depth_plane(0)), lanes_of(batch), &shared_.scratch.loads.depth_[read]);
-    from.gather(batch.pixel, batch.count, 0, shared_.scratch.codes);
-    decode_loaded(info(from.format()), read, batch.count);
+        return gather_codes(codes_in(from.depth_plane(0)), {elements.data(), static_cast<std::size_t>(count)},
+                            &shared_.scratch.loads.depth_[read]);
+    from.gather(elements, count, 0, shared_.scratch.codes);
+    decode_loaded(info(from.format()), read, count);
 }
 
 void Stages::decode_loaded(const FormatInfo& format, std::size_t read, int count) {
@@ -199,37 +209,27 @@ void Stages::decode_loaded(const FormatInfo& format, std::size_t read, int count
 
 // The emulator's own passes, which are not counted, look at their own sample.
 LoadedSample Stages::loaded_sample() const noexcept {
-    const SampleLoads& samples = shared_.instruments.samples;
-    if (samples.group == nullptr || !shared_.statistics.counts) return LoadedSample::own;
-    return kind_ == PassKind::geometry ? samples.geometry : samples.full_screen;
-}
-
-// Called at both ends of a pass that loads other samples: each waits for all, so that loads see the passes before it.
-void Stages::meet_samples(const PassState& state) const {
-    if (loaded_sample() == LoadedSample::own || std::ranges::none_of(state.reads, &Target::exists)) return;
-    if (state.ordered_rmw)
-        throw Refused{shared_.profile(),
-                      {"loads of another sample from a target that the pass writes", "", "use --load-sample own"}};
-    shared_.instruments.samples.group->meet();
+    if (shared_.samples() == 1 || !shared_.statistics.counts) return LoadedSample::own;
+    return kind_ == PassKind::geometry ? shared_.frame.loads : shared_.frame.composites;
 }
 
 // By the rules of a picture's resolve: the nearest depth, which has the least code or key, and the mean of colours.
-void Stages::load_resolved(Target target, std::size_t read, const FragmentBatch& batch) {
-    const SampleGroup& group = *shared_.instruments.samples.group;
+void Stages::load_resolved(TargetStorage& from, std::size_t read, const FragmentBatch& batch) {
     const DeviceProfile& profile = shared_.profile();
-    const Format format = targets_.at(target).format();
+    const Format format = from.format();
     if (is_depth(format)) {
         Lanes<std::uint32_t>& nearest = shared_.scratch.loads.depth_[read];
         std::fill_n(nearest.begin(), batch.count, ~0u);
         Lanes<std::uint32_t> code;
-        for (int s = 0; s < group.samples(); ++s) {
-            gather_codes(codes_in(group.targets(s).at(target).depth_plane(0)), lanes_of(batch), &code);
+        for (std::size_t s = 0; s < shared_.samples(); ++s) {
+            const Lanes<std::uint32_t> elements = elements_of(batch, s);
+            gather_codes(codes_in(from.depth_plane(0)), {elements.data(), static_cast<std::size_t>(batch.count)}, &code);
             for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
                 nearest[i] = std::min(nearest[i], code[i]);
         }
         return;
     }
-    ColorResolve resolve{group.samples(), profile.resolve, profile.color_rounding()};
+    ColorResolve resolve{static_cast<int>(shared_.samples()), profile.resolve, profile.color_rounding()};
     Image sample{format, batch.count, 1};
     ColorCodes& codes = shared_.scratch.codes;
     const auto for_each_code = [&](Image& image, const auto& visit) {
@@ -237,8 +237,8 @@ void Stages::load_resolved(Target target, std::size_t read, const FragmentBatch&
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
             for (std::size_t c = 0; c < channels; ++c) visit(image.codes[i * channels + c], codes[c][i]);
     };
-    for (int s = 0; s < group.samples(); ++s) {
-        group.targets(s).at(target).gather(batch.pixel, batch.count, 0, codes);
+    for (std::size_t s = 0; s < shared_.samples(); ++s) {
+        from.gather(elements_of(batch, s), batch.count, 0, codes);
         for_each_code(sample, [](std::uint32_t& stored, std::uint32_t code) { stored = code; });
         resolve.add(sample);
     }
@@ -266,7 +266,7 @@ void Stages::run_program(const PassState& state, FragmentBatch& batch, Outputs& 
 // The alpha test compares 8-bit codes unless target 0 is a float format and the profile decides by the target
 // (fragment-stages.md 3).
 void Stages::finish(const PassState& state, const FragmentBatch& batch, Outputs& out, DrawCounts& drawn) {
-    cover_sample(state, batch, out);
+    cover_samples(state, batch, out);
     if (state.alpha.enabled) {
         const std::uint64_t before = alive_count(out, batch.count);
         const ChannelType type =
@@ -314,7 +314,7 @@ void Stages::record_trace(const FragmentBatch& batch, const Outputs& out, const 
 
 void Stages::open_cache(const PassState& state) {
     if (shared_.profile().blend_storage == BlendStorage::target) return;
-    if (cache_ == nullptr) cache_ = std::make_unique<TileCache>(shared_.rect(), shared_.frame.rect());
+    if (cache_ == nullptr) cache_ = std::make_unique<TileCache>(shared_.rect(), shared_.frame.rect(), shared_.samples());
     for (std::size_t k = 0; k < state.color.size(); ++k) {
         if (!state.color[k].exists()) continue;
         const TargetStorage& target = targets_.at(state.color[k]);

@@ -13,7 +13,6 @@
 
 #include "pipeline/frame/alteration.h"
 #include "pipeline/frame/observer.h"
-#include "pipeline/frame/sample_loads.h"
 #include "pipeline/stages/target_storage.h"
 #include "pipeline/vertices/prepare.h"
 
@@ -31,8 +30,6 @@ class Stages {
     ~Stages();
 
     void begin_pass(const PassState& state, PassKind kind);
-    // Waits for the frames of the other samples, if the pass loads from them.
-    void meet_samples(const PassState& state) const;
     void begin_query() noexcept { kind_ = PassKind::full_screen; }  // for Region::trace_pixels, which is not a pass
     // Sets what is known about the depth test of this pass, and whether its colours use textures and shadow.
     void set_depth(DepthOutcome outcome) noexcept { depth_ = outcome; }
@@ -47,7 +44,8 @@ class Stages {
     void open_cache(const PassState& state);
     void close_cache();
     [[nodiscard]] Outputs& start_batch(const FragmentBatch& batch);
-    // The pixels of a full-screen pass, row by row, from index `next` on; null after the last.
+    // The elements of a full-screen pass, sample by sample and row by row, from index `next` on, of one sample per
+    // batch; null after the last.
     [[nodiscard]] FragmentBatch* next_screen_batch(std::size_t& next);
     void shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out);  // material stage: texture, MASK
     void load(const PassState& state, const FragmentBatch& batch);
@@ -62,11 +60,12 @@ class Stages {
   private:
     // The sample that the loads of the current pass read.
     [[nodiscard]] LoadedSample loaded_sample() const noexcept;
-    void load_resolved(Target target, std::size_t read, const FragmentBatch& batch);
+    [[nodiscard]] Lanes<std::uint32_t> elements_of(const FragmentBatch& batch, std::size_t sample) const noexcept;
+    void load_resolved(TargetStorage& from, std::size_t read, const FragmentBatch& batch);
     void decode_loaded(const FormatInfo& format, std::size_t read, int count);
-    void load_target(TargetStorage& from, std::size_t read, const FragmentBatch& batch);
+    void load_target(TargetStorage& from, std::size_t read, const Lanes<std::uint32_t>& elements, int count);
     // SAMPLE_ALPHA_TO_COVERAGE, SAMPLE_COVERAGE and the sample mask (pipeline/reference/fragment-stages.md 13.6).
-    void cover_sample(const PassState& state, const FragmentBatch& batch, Outputs& out);
+    void cover_samples(const PassState& state, const FragmentBatch& batch, Outputs& out);
     void finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
                        DrawCounts& drawn);
     std::uint64_t test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
@@ -93,7 +92,7 @@ class Stages {
     int samples_ = 1;
     bool samples_textures_ = false, takes_shadow_ = false;
     std::uint64_t tallied_ = 0;
-    std::vector<bool> has_saturated_;  // pixels whose stencil has reached its limit; empty until one does
+    std::vector<bool> has_saturated_;  // elements whose stencil has reached its limit; empty until one does
 };
 
 }  // namespace strata::pipeline

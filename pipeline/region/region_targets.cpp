@@ -13,6 +13,7 @@
 #include "pipeline/formats/convert.h"
 #include "pipeline/formats/half.h"
 #include "pipeline/formats/image_texels.h"
+#include "pipeline/formats/resolve.h"
 #include "pipeline/formats/unorm8.h"
 #include "pipeline/formats/unorm8_product.h"
 #include "pipeline/frame/pass_counters.h"
@@ -99,7 +100,7 @@ Target Targets::make_depth() { return make(target_format(shared_.frame.key_reque
 
 Target Targets::make(Format format, int samples) {
     if (auto lacking = check_samples(shared_.profile(), samples)) throw Refused{shared_.profile(), *std::move(lacking)};
-    storages_.emplace_back(format, samples, shared_.rect().area(), shared_.scratch.take_words());
+    storages_.emplace_back(format, samples, shared_.elements(), shared_.scratch.take_words());
     return {static_cast<int>(storages_.size()) - 1};
 }
 
@@ -157,18 +158,22 @@ void Targets::copy_rectangle(Target from, const rasterizer::Rect& from_rect, Tar
                      shared_.rect())
             .area() != written.area())
         throw NeedsFrame{};
-    for (int y = written.y0; y < written.y1; ++y) copy_row(source, written, y, dx, dy, texture);
-    shared_.count(of_copy(static_cast<std::uint64_t>(info(source.format()).bytes_per_pixel), written.area()));
+    for (std::size_t sample = 0; sample < shared_.samples(); ++sample)
+        for (int y = written.y0; y < written.y1; ++y)
+            copy_row(source, written, y, dx, dy, static_cast<std::uint32_t>(sample * shared_.pixels()), texture);
+    shared_.count(of_copy(static_cast<std::uint64_t>(info(source.format()).bytes_per_pixel),
+                          written.area() * shared_.samples()));
     shared_.count_pass({.copies = 1});
     shared_.show({.step = Step::copy, .to = to, .from = from});
 }
 
-// Copies row y of `written`. Overlapping copies within one target are not supported.
+// Copies row y of `written` in the sample whose first element is `first`. Overlapping copies within one target are not
+// supported.
 void Targets::copy_row(const TargetStorage& source, const rasterizer::Rect& written, int y, int dx, int dy,
-                       TargetStorage& texture) {
+                       std::uint32_t first, TargetStorage& texture) {
     const auto index = [&](int column, int row) {
-        return static_cast<std::uint32_t>((row - shared_.rect().y0) * shared_.rect().width() + column -
-                                          shared_.rect().x0);
+        return first + static_cast<std::uint32_t>((row - shared_.rect().y0) * shared_.rect().width() + column -
+                                                  shared_.rect().x0);
     };
     RegionScratch& s = shared_.scratch;
     for (int x = written.x0; x < written.x1; x += batch_capacity) {
@@ -183,10 +188,10 @@ void Targets::copy_row(const TargetStorage& source, const rasterizer::Rect& writ
 }
 
 // `held` is the region in pixels of the frame's texture; a lookup outside it throws NeedsFrame.
-DepthTexels Targets::depth_texels(Target depth) const {
+DepthTexels Targets::depth_texels(Target depth, std::size_t sample) const {
     const rasterizer::Rect& frame = shared_.frame.rect();
     DepthTexels texels;
-    texels.codes = at(depth).depth(0);
+    texels.codes = at(depth).depth(0) + sample * shared_.pixels();
     texels.held = {shared_.rect().x0 - frame.x0, shared_.rect().y0 - frame.y0, shared_.rect().x1 - frame.x0,
                    shared_.rect().y1 - frame.y0};
     texels.width = frame.width();
@@ -197,12 +202,12 @@ DepthTexels Targets::depth_texels(Target depth) const {
 }
 
 // Channels that the format lacks are 0, alpha 1, as for loads of a program.
-Rgba Targets::color(Target target, std::uint32_t pixel, int sample) const {
+Rgba Targets::color(Target target, std::uint32_t element, int own_sample) const {
     const TargetStorage& from = at(target);
     const FormatInfo format = info(from.format());
     Rgba color{0, 0, 0, 1};
     for (int c = 0; c < format.channels; ++c) {
-        const std::uint32_t code = from.code(pixel, c, sample);
+        const std::uint32_t code = from.code(element, c, own_sample);
         color[static_cast<std::size_t>(c)] =
             format.type == ChannelType::unorm8 ? code_value(code, shared_.profile().unorm_rounding)
             : format.type == ChannelType::half
@@ -212,18 +217,31 @@ Rgba Targets::color(Target target, std::uint32_t pixel, int sample) const {
     return color;
 }
 
-Image Targets::image(Target target) const {
+Image Targets::image(Target target, std::size_t sample) const {
     const TargetStorage& from = at(target);
     Image image = Image::for_overwrite(from.format(), shared_.rect().width(), shared_.rect().height(), from.samples());
-    for (int y = 0; y < shared_.rect().height(); ++y) read_row(target, y, &image.codes[image.index(0, y)]);
+    for (int y = 0; y < shared_.rect().height(); ++y) read_row(target, y, &image.codes[image.index(0, y)], sample);
     finish_words();
     return image;
 }
 
+// Under reversed depth targets have keys, so the nearest depth always has the least code.
+Image Targets::resolved(Target target) const {
+    if (shared_.samples() == 1) return image(target);
+    const DeviceProfile& profile = shared_.profile();
+    ColorResolve mean{static_cast<int>(shared_.samples()), profile.resolve, profile.color_rounding()};
+    Image nearest;
+    const bool has_depths = is_depth(at(target).format());
+    for (std::size_t sample = 0; sample < shared_.samples(); ++sample)
+        has_depths ? add_nearest(image(target, sample), nearest) : mean.add(image(target, sample));
+    return has_depths ? nearest : std::move(mean).picture();
+}
+
 // One row of the region in Image order: pixels, their samples, their channels.
-void Targets::read_row(Target target, int y, std::uint32_t* out) const {
+void Targets::read_row(Target target, int y, std::uint32_t* out, std::size_t of_sample) const {
     const TargetStorage& from = at(target);
-    const auto width = static_cast<std::size_t>(shared_.rect().width()), first = static_cast<std::size_t>(y) * width;
+    const auto width = static_cast<std::size_t>(shared_.rect().width()),
+               first = of_sample * shared_.pixels() + static_cast<std::size_t>(y) * width;
     const auto channels = static_cast<std::size_t>(info(from.format()).channels);
     const auto samples = static_cast<std::size_t>(from.samples());
     if (samples == 1 && read_words(from.texels(0), first, width, out)) return;
@@ -253,7 +271,7 @@ bool Targets::has_ordered_surface() const {
         return rasterizer::is_beyond_range(code, format);
     };
     return !shared_.wraps_depths() ||
-           std::none_of(surface.depth(0), surface.depth(0) + shared_.rect().area(), is_beyond);
+           std::none_of(surface.depth(0), surface.depth(0) + shared_.elements(), is_beyond);
 }
 
 void Targets::require_equal(const std::vector<TargetStorage>& others) const {

@@ -50,13 +50,16 @@ class Targets {
     [[nodiscard]] bool is_one_sample(Target t) const { return t.exists() && at(t).samples() == 1; }
     // Null if there is no such target.
     [[nodiscard]] const std::uint32_t* codes_of(Target t) const { return t.exists() ? at(t).depth(0) : nullptr; }
-    // A depth target as a texture; its `t` increases in the frame's y direction.
-    [[nodiscard]] DepthTexels depth_texels(Target depth) const;
-    // The contents of a target: one colour as a program would load it, or all codes as an image of the region.
-    [[nodiscard]] Rgba color(Target target, std::uint32_t pixel, int sample = 0) const;
-    [[nodiscard]] Image image(Target target) const;
+    // A sample of a depth target as a texture; its `t` increases in the frame's y direction.
+    [[nodiscard]] DepthTexels depth_texels(Target depth, std::size_t sample = 0) const;
+    // The contents of a target: one element's colour as a program would load it, or the codes of one sample of every
+    // pixel as an image of the region. An image has the target's own samples, too.
+    [[nodiscard]] Rgba color(Target target, std::uint32_t element, int own_sample = 0) const;
+    [[nodiscard]] Image image(Target target, std::size_t sample = 0) const;
+    // The image of all samples: the mean of colours by the profile's rule, the nearest depth (fragment-stages.md 13.3).
+    [[nodiscard]] Image resolved(Target target) const;
     // Row y of the region, from 0 on, in Image order.
-    void read_row(Target target, int y, std::uint32_t* out) const;
+    void read_row(Target target, int y, std::uint32_t* out, std::size_t sample = 0) const;
     // Reports colour targets with infinity, NaN or, where halves have none, the greatest half, that were not cleared to
     // it: all if Frame::checks_targets is set, else the published one. The executor calls it after the body.
     void report_overflow(Target published) const;
@@ -65,7 +68,7 @@ class Targets {
 
   private:
     void copy_row(const TargetStorage& source, const rasterizer::Rect& written, int y, int dx, int dy,
-                  TargetStorage& texture);
+                  std::uint32_t first, TargetStorage& texture);
 
     const RegionShared& shared_;
     std::vector<TargetStorage> storages_;

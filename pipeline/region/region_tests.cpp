@@ -13,15 +13,15 @@
 
 namespace strata::pipeline {
 
-// The frame is one sample's, and the emulator's own passes cover all.
-void Stages::cover_sample(const PassState& state, const FragmentBatch& batch, Outputs& out) {
+// The emulator's own passes cover all samples. A frame of one sample of several has the number that its state says.
+void Stages::cover_samples(const PassState& state, const FragmentBatch& batch, Outputs& out) {
     const rasterizer::RasterState& raster = shared_.frame.transparent->geometry.state;
     const rasterizer::SampleCoverage& coverage = raster.sample_coverage;
     if (kind_ != PassKind::geometry || !shared_.statistics.counts || coverage == rasterizer::SampleCoverage{}) return;
     // The samples of the least numbers; NaN has none. The product is exact, for the number is a power of two.
-    const auto is_covered = [&](float share, ShareRounding rounding) {
+    const auto is_covered = [&](float share, ShareRounding rounding, std::uint32_t sample) {
         const float samples = (share > 0.0f ? std::min(share, 1.0f) : 0.0f) * static_cast<float>(raster.sample_count);
-        const auto least = static_cast<float>(raster.sample_number);
+        const auto least = static_cast<float>(sample);
         switch (rounding) {
             case ShareRounding::nearest: return samples >= least + 0.5f;
             case ShareRounding::up: return samples > least;
@@ -30,14 +30,16 @@ void Stages::cover_sample(const PassState& state, const FragmentBatch& batch, Ou
         return samples >= least + 1;
     };
     const DeviceProfile& profile = shared_.profile();
-    const bool is_masked = (coverage.mask >> raster.sample_number & 1u) == 0;
-    const bool is_outside =
-        coverage.value && is_covered(*coverage.value, profile.sample_coverage) == coverage.is_inverted;
     const bool has_alpha = state.color[0].exists() && info(targets_.at(state.color[0]).format()).channels == 4;
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+        const std::uint32_t sample = static_cast<std::uint32_t>(raster.sample_number) +
+                                     batch.pixel[i] / static_cast<std::uint32_t>(shared_.pixels());
+        const bool is_masked = (coverage.mask >> sample & 1u) == 0;
+        const bool is_outside =
+            coverage.value && is_covered(*coverage.value, profile.sample_coverage, sample) == coverage.is_inverted;
         const bool is_in =
             !is_masked && !is_outside &&
-            (!coverage.by_alpha || !has_alpha || is_covered(out.color[0][3][i], profile.alpha_to_coverage));
+            (!coverage.by_alpha || !has_alpha || is_covered(out.color[0][3][i], profile.alpha_to_coverage, sample));
         out.alive[i] &= is_in ? ~0u : 0u;
     }
 }
@@ -113,7 +115,7 @@ std::uint64_t Stages::test_stencil(const PassState& state, const FragmentBatch& 
 void Stages::report_saturation(const FragmentBatch& batch) {
     const Lanes<std::uint32_t>& saturated = shared_.scratch.saturated;
     if (count_lanes(saturated, batch.count) == 0) return;
-    has_saturated_.resize(shared_.rect().area());
+    has_saturated_.resize(shared_.elements());
     std::uint64_t pixels = 0;  // pixels that had not saturated before
     std::uint32_t first = ~0u;
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {

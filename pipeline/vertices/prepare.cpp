@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "pipeline/device/sample_points.h"
 #include "pipeline/vertices/check_list.h"
 #include "pipeline/vertices/matrix.h"
 #include "pipeline/vertices/quotient_rows.h"
@@ -220,10 +221,12 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
         throw InputError("raster state", "sample", "none with raster.coverage float_spans", "one");
     if (!options.is_checked) check(list);
     check(view);
+    PreparedDraw prepared;
+    prepared.other_samples.resize(static_cast<std::size_t>(options.samples) - 1);
     SoupVertices vertices;
     // Vertices that are not read earlier are written during set-up; the soup then needs no copy of the indices.
     const bool alters = options.alteration != nullptr && options.alteration->vertices;
-    const bool is_written = alters || options.order;
+    const bool is_written = alters || options.order || options.samples > 1;
     rasterizer::TriangleSoup soup =
         lay_out(list, view, options, is_written ? Indices::copied : Indices::lent, vertices);
     if (is_written) write_all(vertices, options.threads, soup);
@@ -234,16 +237,26 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     rasterizer::RasterRules rules = profile.raster;
     if (view.vertex_path == VertexPath::nv20) rules.w_divide = rasterizer::WDivide::nv20;
     soup.extras = vertex_extras(list, view, state, rules, options);
-    PreparedDraw prepared;
     rasterizer::RasterState scaled = state;
     scaled.w_scale = w_scale_of(view, state);
     rasterizer::VertexSource source;
     if (!is_written) source = [&](std::size_t begin, auto out) { vertices.write(begin, out); };
-    prepared.geometry = rasterizer::set_up(std::move(soup), scaled, rules, options.threads, source);
-    if (options.alteration != nullptr && options.alteration->corners) options.alteration->corners(prepared.geometry);
-    if (options.tile_size != 0) bin_triangles(prepared.geometry, options.tile_size, options.threads);
+    for (std::size_t sample = prepared.samples(); sample-- > 0;) {
+        if (options.samples > 1) set_sample(scaled, profile.sample_positions, options.samples, sample);
+        rasterizer::Geometry& geometry = prepared.of_sample(sample);
+        geometry = rasterizer::set_up(sample == 0 ? std::move(soup) : soup, scaled, rules, options.threads, source);
+        if (options.alteration != nullptr && options.alteration->corners) options.alteration->corners(geometry);
+    }
+    if (options.tile_size != 0) bin_triangles(prepared, options.tile_size, options.threads);
+    for (const PrimitiveRange& primitives : order.parts) {
+        DrawPart& part = prepared.parts.emplace_back(part_of(prepared.geometry, primitives));
+        for (const rasterizer::Geometry& other : prepared.other_samples) {
+            const DrawPart own = part_of(other, primitives);
+            part.near = std::min(part.near, own.near);
+            part.far = std::max(part.far, own.far);
+        }
+    }
     if (options.receives_shadow) prepared.needs.shadow = shadow_coordinates;
-    for (const PrimitiveRange& part : order.parts) prepared.parts.push_back(part_of(prepared.geometry, part));
     for (const Material& material : list.materials) {
         prepared.materials.push_back(material_stage(list, material, options.alpha_scale));
         if (!is_selected(material, options.selection)) continue;
@@ -253,11 +266,22 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     return prepared;
 }
 
+std::size_t PreparedDraw::triangles_in(std::size_t tile) const noexcept {
+    std::size_t triangles = geometry.bin(tile).size();
+    for (const rasterizer::Geometry& other : other_samples) triangles += other.bin(tile).size();
+    return triangles;
+}
+
+void bin_triangles(PreparedDraw& list, int tile_size, int threads) {
+    for (std::size_t sample = 0; sample < list.samples(); ++sample)
+        rasterizer::bin_triangles(list.of_sample(sample), tile_size, threads);
+}
+
 // Stops as soon as all needs of the list are found.
-MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles) {
+MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles, std::size_t sample) {
     MaterialNeeds needs{.shadow = list.needs.shadow};
     for (std::size_t i = 0; i < triangles.size() && needs != list.needs; ++i) {
-        const MaterialStage& material = list.materials[list.geometry.triangles[triangles[i]].material];
+        const MaterialStage& material = list.materials[list.of_sample(sample).triangles[triangles[i]].material];
         needs.texcoord |= material.texture != nullptr;
         needs.color |= material.mask.enabled;
     }

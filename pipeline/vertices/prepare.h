@@ -40,6 +40,12 @@ struct MaterialNeeds {
     bool color = false;
     // The coordinates that the shadow lookup of every fragment's colour reads.
     rasterizer::UnitMask shadow = 0;
+    MaterialNeeds& operator|=(const MaterialNeeds& other) noexcept {
+        texcoord |= other.texcoord;
+        color |= other.color;
+        shadow |= other.shadow;
+        return *this;
+    }
     friend bool operator==(const MaterialNeeds&, const MaterialNeeds&) = default;
 };
 
@@ -50,18 +56,33 @@ struct DrawPart {
     friend bool operator==(const DrawPart&, const DrawPart&) = default;
 };
 
-// A draw list prepared for passes, once per frame. It points into the draw list, which must outlive it.
+// A draw list prepared for passes, once per frame. It points into the draw list, which must outlive it. Every sample of
+// a pixel has a set-up of its own: the same primitives with corners shifted by the sample's position, in the same tiles.
 struct PreparedDraw {
-    rasterizer::Geometry geometry;
+    rasterizer::Geometry geometry;                     // of sample 0
+    std::vector<rasterizer::Geometry> other_samples{};  // of samples 1, 2, ...
     // In submission order, without gaps; empty unless `order` returned some.
     std::vector<DrawPart> parts;
     std::vector<MaterialStage> materials;
     MaterialNeeds needs;  // union over all materials
+
+    [[nodiscard]] std::size_t samples() const noexcept { return 1 + other_samples.size(); }
+    [[nodiscard]] const rasterizer::Geometry& of_sample(std::size_t sample) const noexcept {
+        return sample == 0 ? geometry : other_samples[sample - 1];
+    }
+    [[nodiscard]] rasterizer::Geometry& of_sample(std::size_t sample) noexcept {
+        return sample == 0 ? geometry : other_samples[sample - 1];
+    }
+    // The number of triangles in a tile, of all samples.
+    [[nodiscard]] std::size_t triangles_in(std::size_t tile) const noexcept;
 };
 
-// The needs of the materials of some of a draw list's triangles. Those of one tile may be fewer than those of the whole
-// list.
-[[nodiscard]] MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles);
+// Sorts the triangles of every sample into tiles (rasterizer/set_up/geometry.h).
+void bin_triangles(PreparedDraw& list, int tile_size, int threads);
+
+// The needs of the materials of some triangles of a sample. Those of one tile may be fewer than those of the whole list.
+[[nodiscard]] MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles,
+                                     std::size_t sample = 0);
 
 // By alphaMode of the material: `opaque` selects OPAQUE and MASK, `transparent` selects BLEND.
 enum class Selection : std::uint8_t { all, opaque, transparent };
@@ -102,6 +123,8 @@ struct PrepareOptions {
     bool is_checked = false;
     // Null: none.
     const VertexAlteration* alteration = nullptr;
+    // Samples of a pixel, at the profile's positions; 1: the state says at which point.
+    int samples = 1;
 };
 
 // True if w depends on the distance from the eye, which a w buffer requires.

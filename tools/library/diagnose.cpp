@@ -43,15 +43,14 @@ std::string Diagnosed::text() const { return oracle::to_text(diagnosis, comparis
 std::string Diagnosed::json() const { return oracle::to_json(diagnosis, comparison); }
 
 Diagnosed diagnose(const Scene& scene, const Picture& candidate, const Algorithm& algorithm,
-                   const DeviceProfile& profile, const RenderOptions& options, const Tolerances& tolerances,
-                   const Multisampling& sampling) {
+                   const DeviceProfile& profile, const RenderOptions& options, const Tolerances& tolerances) {
     if (candidate.targets.empty()) throw InputError("candidate", "targets", "at least one", "none");
     RenderOptions of_candidate = options;
     of_candidate.width = candidate.targets[0].width;
     of_candidate.height = candidate.targets[0].height;
     const View view = scene.view(of_candidate.width, of_candidate.height, of_candidate.raster);
     auto found =
-        oracle::diagnose_picture({.input = {scene.list(), view, profile, of_candidate, sampling, scene.space()},
+        oracle::diagnose_picture({.input = {scene.list(), view, profile, of_candidate, scene.space()},
                                   .algorithm = algorithm,
                                   .candidate = candidate,
                                   .tolerances = tolerances});
@@ -59,14 +58,14 @@ Diagnosed diagnose(const Scene& scene, const Picture& candidate, const Algorithm
 }
 
 Judgement judge(const Scene& scene, const Picture& candidate, const DeviceProfile& profile,
-                const RenderOptions& options, const Multisampling& sampling) {
+                const RenderOptions& options) {
     const auto colors = std::ranges::find(candidate.targets, oracle::Meaning::color, &oracle::TargetImage::meaning);
     if (colors == candidate.targets.end()) throw InputError("candidate", "targets", "colours", "none");
     RenderOptions of_candidate = options;
     of_candidate.width = colors->width;
     of_candidate.height = colors->height;
     const View view = scene.view(of_candidate.width, of_candidate.height, of_candidate.raster);
-    return oracle::judge({scene.list(), view, profile, of_candidate, sampling, scene.space()}, {*colors});
+    return oracle::judge({scene.list(), view, profile, of_candidate, scene.space()}, {*colors});
 }
 
 }  // namespace v0_1

@@ -11,9 +11,8 @@ inline namespace v0_1 {
 namespace {
 
 // The renderer refers to the draw list of the scene, which must outlive it.
-peeling::SampledRenderer renderer_of(const Scene& scene, const DeviceProfile& profile, const RenderOptions& options,
-                                     const Multisampling& sampling) {
-    return {scene.list(), scene.view(options.width, options.height, options.raster), profile, options, sampling};
+peeling::Renderer renderer_of(const Scene& scene, const DeviceProfile& profile, const RenderOptions& options) {
+    return {scene.list(), scene.view(options.width, options.height, options.raster), profile, options};
 }
 
 void check_pixel(int x, int y, const RenderOptions& options) {
@@ -26,8 +25,8 @@ void check_pixel(int x, int y, const RenderOptions& options) {
 }
 
 oracle::RunInput input_of(const Scene& scene, const View& view, const DeviceProfile& profile,
-                          const RenderOptions& options, const Multisampling& sampling = {}) {
-    return {scene.list(), view, profile, options, sampling};
+                          const RenderOptions& options) {
+    return {scene.list(), view, profile, options};
 }
 
 }  // namespace
@@ -49,15 +48,15 @@ Picture Rendering::picture() const {
 }
 
 Rendering render(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,
-                 const RenderOptions& options, const Multisampling& sampling) {
-    return {profile, renderer_of(scene, profile, options, sampling).render(algorithm)};
+                 const RenderOptions& options) {
+    return {profile, renderer_of(scene, profile, options).render(algorithm)};
 }
 
 std::vector<Layer> layers(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,
-                          const RenderOptions& options, const Multisampling& sampling) {
+                          const RenderOptions& options) {
     RenderOptions kept = options;
     kept.keep_layers = true;
-    peeling::RenderResult result = renderer_of(scene, profile, kept, sampling).render(algorithm);
+    peeling::RenderResult result = renderer_of(scene, profile, kept).render(algorithm);
     if (result.refusal) throw Refused{profile, *std::move(result.refusal)};
     std::vector<Layer> near_to_far, from_behind;
     for (pipeline::PeeledLayer& kept_layer : result.frame.layers) {
@@ -81,10 +80,10 @@ std::vector<CapturedFragment> fragments(const Scene& scene, const Algorithm& alg
 }
 
 std::vector<oracle::PassReport> passes(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,
-                                       const RenderOptions& options, const Multisampling& sampling) {
+                                       const RenderOptions& options) {
     std::vector<oracle::PassReport> shown;
     const View view = scene.view(options.width, options.height, options.raster);
-    oracle::passes(input_of(scene, view, profile, options, sampling), algorithm,
+    oracle::passes(input_of(scene, view, profile, options), algorithm,
                    [&](oracle::PassReport&& pass) { shown.push_back(std::move(pass)); });
     return shown;
 }
@@ -97,11 +96,10 @@ oracle::History explain(const Scene& scene, int x, int y, const Algorithm& algor
 }
 
 oracle::SampledHistory explain_samples(const Scene& scene, int x, int y, const Algorithm& algorithm,
-                                       const DeviceProfile& profile, const RenderOptions& options,
-                                       const Multisampling& sampling) {
+                                       const DeviceProfile& profile, const RenderOptions& options) {
     check_pixel(x, y, options);
     const View view = scene.view(options.width, options.height, options.raster);
-    return oracle::explain_samples(input_of(scene, view, profile, options, sampling), algorithm, x, y);
+    return oracle::explain_samples(input_of(scene, view, profile, options), algorithm, x, y);
 }
 
 Algorithm own_algorithm(std::string name, std::function<void(pipeline::Region&)> body, bool whole_frame) {

@@ -1,6 +1,5 @@
 // tools/oracle/run_input.h - the input of a run: a scene, a camera, a device profile and options.
 #pragma once
-#include "peeling/multisampling.h"
 #include "peeling/render_options.h"
 #include "pipeline/vertices/draw_list.h"
 
@@ -16,7 +15,6 @@ struct RunInput {
     const pipeline::View& view;
     const pipeline::DeviceProfile& profile;
     peeling::RenderOptions options;  // execution, audit and layers are set by the function that runs it
-    peeling::Multisampling sampling{};
     pipeline::ColorSpace space = pipeline::ColorSpace::encoded;  // of the scene's colours and the frame's
 };
 

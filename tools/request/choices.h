@@ -3,7 +3,7 @@
 #include "pipeline/device/profile_fields.h"
 #include "pipeline/formats/resolve.h"
 #include "pipeline/frame/frame.h"
-#include "pipeline/frame/sample_loads.h"
+#include "pipeline/frame/frame.h"
 #include "pipeline/vertices/draw_list.h"
 #include "rasterizer/base/simd.h"
 #include "tools/request/words.h"

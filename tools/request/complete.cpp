@@ -43,7 +43,9 @@ void take_background(PictureRequest& request) {
     request.render.background = {c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]};
 }
 
-void take_sample(PictureRequest& request, const pipeline::DeviceProfile& profile) {
+// The frame of one sample alone is a frame of one sample, whose place the state has.
+void take_samples(PictureRequest& request, const pipeline::DeviceProfile& profile) {
+    request.render.sampling = request.sample ? peeling::Multisampling{} : request.sampling;
     if (!request.sample || request.sampling.samples == 1) return;
     if (const auto lacking = pipeline::check_multisampling(profile, request.sampling.samples))
         throw pipeline::Refused{profile, *lacking};
@@ -82,7 +84,7 @@ std::optional<OptionConflict> option_conflict(const PictureRequest& request) {
 void complete(PictureRequest& request, const pipeline::DeviceProfile& profile) {
     take_clip_convention(request, profile);
     take_interpolation(request);
-    take_sample(request, profile);
+    take_samples(request, profile);
     take_background(request);
 }
 

@@ -43,7 +43,7 @@ struct PictureRequest {
     std::optional<Orbit> orbit{};
     bool states_size = false;                    // --size is given
     std::optional<pipeline::Rgba> background{};  // sRGB, not premultiplied; empty: the default, black or a pack's
-    // Without what depends on the profile and the scene: clip convention, background and the place of shading.
+    // Without what depends on the profile and the scene: clip convention, background, samples and the place of shading.
     peeling::RenderOptions render{};
     peeling::Multisampling sampling{};
     std::optional<int> sample{};                             // the frame of this sample alone

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "scenes/packs/new_folder.h"
 #include "tools/oracle/suite/suite_packs.h"
 #include "tools/strata/command.h"
@@ -54,12 +54,11 @@ oracle::Golden golden_of(RunOptions& options, const std::function<void(double sh
                           .color_space = options.scene_options.color_space,
                           .profile = std::move(session.profile),
                           .options = options.render,
-                          .sampling = sampling_of(options),
                           .command = canonical_command("golden", options, options.algorithms)};
     golden.scene.own_view = session.view;
     peeling::RenderOptions tried = golden.options;
     tried.audit = false;
-    peeling::SampledRenderer renderer{golden.scene.list, session.view, golden.profile, tried, golden.sampling};
+    peeling::Renderer renderer{golden.scene.list, session.view, golden.profile, tried};
     for (std::size_t i = 0; i < options.algorithms.size(); ++i) {
         progress(static_cast<double>(i) / static_cast<double>(options.algorithms.size()));
         const peeling::Algorithm* const algorithm = options.algorithms[i];

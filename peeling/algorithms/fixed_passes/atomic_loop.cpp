@@ -34,7 +34,7 @@ class AtomicEntries {
     AtomicEntries(const pipeline::Region& region, int k, EqualCodes equal)
         : k_{static_cast<std::size_t>(k)},
           equal_{equal},
-          codes_(region.rect().area() * k_, empty),
+          codes_(region.elements() * k_, empty),
           colors_(codes_.size()),
           taken_(codes_.size()) {}
 

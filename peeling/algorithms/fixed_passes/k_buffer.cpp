@@ -30,7 +30,7 @@ struct Entry {
 
 class KBuffer {
   public:
-    explicit KBuffer(Region& region) : region_{region}, overflow_{region}, pushed_out_(region.rect().area(), -1.0f) {
+    explicit KBuffer(Region& region) : region_{region}, overflow_{region}, pushed_out_(region.elements(), -1.0f) {
         region_.set_name(accumulated_, "accumulated");
         region_.set_name(depths_, "depths");
         region_.clear(accumulated_, {.color = {0, 0, 0, 1}});

@@ -116,7 +116,7 @@ void store(Region& region, const NodeLists& lists) {
 
 void run(Region& region, const ListingInputs& inputs) {
     region.begin_iteration();
-    NodeLists lists{region, inputs.options, coverage_of(region), std::vector<Rgba>(region.rect().area())};
+    NodeLists lists{region, inputs.options, coverage_of(region), std::vector<Rgba>(region.elements())};
     give_out_nodes(lists);
     const bool is_one_range = lists.range_from(0).size() == lists.coverage.size();
     if (!is_one_range) count_list_pass(region);

@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 
 #include "peeling/audit/audit.h"
-#include "pipeline/frame/sample_group.h"
 #include "pipeline/region/region_shortcuts.h"
 #include "rasterizer/base/input_error.h"
 #include "tests/peeling/rendering.h"
@@ -22,7 +21,6 @@ struct Way {
     int threads = 1;
     Execution execution = Execution::literal;
     int tile_size = 8;
-    SampleLoads samples{};  // as the audit is told; the frame itself is that of one sample
 };
 
 struct Audited {
@@ -52,13 +50,13 @@ Audited audit(const FragmentScene& scene, const Algorithm& algorithm, const Way&
     frame.trace = algorithm.ties != TiePolicy::none;
     frame.key = algorithm.key;
     const int workers = way.execution == Execution::literal ? 1 : way.threads;
-    frame.trace_bytes = AuditMemory{way.bytes / static_cast<unsigned>(way.samples.count), workers}.trace_bytes();
+    frame.trace_bytes = AuditMemory{way.bytes, workers}.trace_bytes();
     std::atomic<std::size_t> bodies{0};
     const Body body = [&](Region& region) {
         ++bodies;
         algorithm.run(region);
     };
-    Audit audit{frame, body, algorithm, way.bytes, way.threads, way.samples};
+    Audit audit{frame, body, algorithm, way.bytes, way.threads};
     const FrameResult result = run(frame, body, way.execution, way.threads, {}, {}, audit.callbacks());
     return {audit.finish(result), bodies, result.work.regions};
 }
@@ -221,34 +219,4 @@ TEST_CASE("capturing all fragments of a frame is rejected in advance if they exc
     CHECK_THROWS_WITH(fragments(0),
                       "audit: --fragment-memory: expected at least 17280000 bytes for the frame's 270000 fragments "
                       "in total, found 16777216");
-}
-
-TEST_CASE("what does not fit of samples that load one another is an error because no part can be run again alone") {
-    const FragmentScene scene = scene_of(12);
-    SampleGroup group{1};
-    const auto message_of = [&](std::uint64_t bytes, LoadedSample loads) {
-        return message(scene, *find_algorithm("front_to_back"), {.bytes = bytes, .samples = {&group, 0, 1, loads}});
-    };
-    CHECK(message_of(1300, LoadedSample::own) == "");
-    CHECK(message_of(1 << 20, LoadedSample::zero) == "");
-    CHECK(message_of(1300, LoadedSample::zero) ==
-          "audit: --fragment-memory: expected at least 2600 bytes for the audit of fragments that are composited more "
-          "than once, because samples that load one another are audited together, or --no-audit, or a smaller --size, "
-          "found 1300");
-}
-
-TEST_CASE("the samples of a group share the memory for the fragments of a pixel") {
-    constexpr int fragments = 300;
-    const FragmentScene scene = deep_pixel(fragments);
-    constexpr std::uint64_t enough = std::uint64_t{fragments} * 52 * 2 * 4;
-    SampleGroup group{1};
-    for (const LoadedSample loads : {LoadedSample::own, LoadedSample::resolved}) {
-        const auto message_of = [&](std::uint64_t bytes) {
-            return message(scene, *find_algorithm("unsorted"), {.bytes = bytes, .samples = {&group, 0, 4, loads}});
-        };
-        CHECK(message_of(enough) == "");
-        CHECK(message_of(enough - 1)
-                  .find("at least " + std::to_string(enough) + " bytes for the audit of pixel (5, 3)") !=
-              std::string::npos);
-    }
 }

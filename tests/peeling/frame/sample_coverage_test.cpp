@@ -2,7 +2,7 @@
 // them, and queries against counts.
 #include <catch2/catch.hpp>
 
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "tests/peeling/rendering.h"
 #include "tests/support/random_triangles.h"
 
@@ -12,7 +12,7 @@ using namespace strata::testing;
 using strata::peeling::find_algorithm;
 using strata::peeling::RenderOptions;
 using strata::peeling::RenderResult;
-using strata::peeling::SampledRenderer;
+using strata::peeling::Renderer;
 using strata::pipeline::find_profile;
 using strata::pipeline::Image;
 using strata::rasterizer::SampleCoverage;
@@ -39,10 +39,12 @@ using strata::rasterizer::SampleCoverage;
     options.width = options.height = 4;
     options.threads = 1;
     options.raster.sample_coverage = coverage;
-    SampledRenderer renderer{list, {}, *find_profile(profile), options, {.samples = samples}};
-    std::vector<Image> colors;
-    const RenderResult result = renderer.render(*find_algorithm("front_to_back"), {}, &colors);
+    options.sampling.samples = samples;
+    options.keep_samples = true;
+    Renderer renderer{list, {}, *find_profile(profile), options};
+    const RenderResult result = renderer.render(*find_algorithm("front_to_back"));
     CHECK(result.outcome == strata::peeling::Outcome::done);
+    const std::vector<Image>& colors = result.frame.samples;
     std::vector<int> covered;
     for (std::size_t s = 0; s < colors.size(); ++s)
         if (colors[s].codes[colors[s].index(1, 1)] != 0) covered.push_back(static_cast<int>(s));
@@ -82,10 +84,10 @@ TEST_CASE("opaque surfaces keep the samples that a mask or a coverage leaves out
     options.width = 21, options.height = 17;
     const auto drawn = [&](const SampleCoverage& coverage) {
         options.raster.sample_coverage = coverage;
-        SampledRenderer renderer{scene.list, scene.view, *find_profile("geforce8"), options, {.samples = 4}};
-        std::vector<Image> colors;
-        CHECK(renderer.render(*find_algorithm("front_to_back"), {}, &colors).outcome == strata::peeling::Outcome::done);
-        return colors;
+        options.sampling.samples = 4;
+        options.keep_samples = true;
+        Renderer renderer{scene.list, scene.view, *find_profile("geforce8"), options};
+        return renderer.render(*find_algorithm("front_to_back")).frame.samples;
     };
     const std::vector<Image> all = drawn({});
     REQUIRE(all.size() == 4);
@@ -107,7 +109,8 @@ TEST_CASE("a sample that is masked out makes a peel end after one pass") {
     RenderOptions options;
     options.width = options.height = 4;
     options.raster.sample_coverage.mask = 0;
-    SampledRenderer renderer{list, {}, *find_profile("geforce8"), options, {.samples = 4}};
+    options.sampling.samples = 4;
+    Renderer renderer{list, {}, *find_profile("geforce8"), options};
     CHECK(renderer.render(*find_algorithm("front_to_back")).frame.passes.geometry == 1);
 }
 
@@ -117,11 +120,16 @@ TEST_CASE("a depth pass leaves out samples in every execution") {
     options.width = options.height = 4;
     options.depth = strata::pipeline::DepthFormat::d24;
     options.raster.sample_coverage.mask = 0b10;
+    options.sampling.samples = 2;
+    options.keep_samples = true;
     for (const Running& running : all_ways_of_running) {
         running.apply(options);
-        SampledRenderer renderer{list, {}, *find_profile("geforce8"), options, {.samples = 2}};
-        CHECK(renderer.sample(0).depth_pass().frame.depth.codes[5] == 0xffffff);
-        CHECK(renderer.sample(1).depth_pass().frame.depth.codes[5] < 0xffffff);
+        Renderer renderer{list, {}, *find_profile("geforce8"), options};
+        const RenderResult result = renderer.depth_pass();
+        REQUIRE(result.frame.samples.size() == 2);
+        CHECK(result.frame.samples[0].codes[5] == 0xffffff);
+        CHECK(result.frame.samples[1].codes[5] < 0xffffff);
+        CHECK(result.frame.depth.codes[5] == result.frame.samples[1].codes[5]);
     }
 }
 
@@ -131,8 +139,9 @@ TEST_CASE("a depth pass refuses shading once a pixel where the depth is replaced
     options.width = options.height = 4;
     options.depth_path = strata::rasterizer::DepthPath::depth_replace;
     options.raster.interpolation = strata::rasterizer::Interpolation::centre;
-    SampledRenderer renderer{list, {}, *find_profile("ideal"), options, {.samples = 2}};
-    CHECK(renderer.sample(0).depth_pass().outcome == strata::peeling::Outcome::refused);
+    options.sampling.samples = 2;
+    Renderer renderer{list, {}, *find_profile("ideal"), options};
+    CHECK(renderer.depth_pass().outcome == strata::peeling::Outcome::refused);
 }
 
 TEST_CASE("a published peel that counts in its program ends if all samples are left out") {
@@ -141,7 +150,8 @@ TEST_CASE("a published peel that counts in its program ends if all samples are l
     options.width = options.height = 4;
     options.raster.sample_coverage.mask = 0;
     options.formulation = strata::pipeline::Formulation::published;  // does not reset its registers
-    SampledRenderer renderer{list, {}, *find_profile("ideal"), options, {.samples = 2}};
+    options.sampling.samples = 2;
+    Renderer renderer{list, {}, *find_profile("ideal"), options};
     const RenderResult result = renderer.render(*find_algorithm("coherent_ideal"));
     CHECK(result.frame.passes.geometry <= 13);  // 6 D + 7 for one fragment (keys-and-counts.md 3.4)
     CHECK(std::ranges::any_of(result.frame.diagnostics, [](const strata::pipeline::Diagnostic& diagnostic) {

@@ -12,7 +12,6 @@ namespace {
 using namespace strata::testing;
 using strata::peeling::find_algorithm;
 using strata::peeling::measure_samples;
-using strata::peeling::Multisampling;
 using strata::peeling::RenderOptions;
 using strata::peeling::SampleHazard;
 using strata::pipeline::find_profile;
@@ -44,8 +43,8 @@ using strata::rasterizer::Interpolation;
     options.width = options.height = 8;
     options.threads = 1;
     options.raster.interpolation = interpolation;
-    return measure_samples(scene.list, scene.view, *find_profile("ideal"), options, *find_algorithm(algorithm),
-                           {.samples = 4, .loads = loads});
+    options.sampling = {.samples = 4, .loads = loads};
+    return measure_samples(scene.list, scene.view, *find_profile("ideal"), options, *find_algorithm(algorithm));
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ inline void collect(pipeline::Region& region, std::vector<std::uint32_t>& codes)
                                            pipeline::Execution execution, const pipeline::Instruments& instruments) {
     RunResult left;
     pipeline::RegionCallbacks callbacks;
-    callbacks.ended = [&](pipeline::Region& region, std::size_t, const pipeline::Image&) {
+    callbacks.ended = [&](pipeline::Region& region, std::size_t, const pipeline::FrameResult&) {
         collect(region, left.codes);
     };
     try {

@@ -60,11 +60,12 @@ TEST_CASE("the library names the mistake of a resolved picture") {
     const strata::Scene scene = own_triangles();
     const auto& peel = strata::algorithm("front_to_back");
     const auto profile = strata::profile("geforce8");
-    const strata::Multisampling four{.samples = 4};
-    const auto right = strata::render(scene, peel, profile, frame, four);
-    CHECK(strata::diagnose(scene, right.picture(), peel, profile, frame, {}, four).is_right());
+    strata::RenderOptions four = frame;
+    four.sampling.samples = 4;
+    const auto right = strata::render(scene, peel, profile, four);
+    CHECK(strata::diagnose(scene, right.picture(), peel, profile, four).is_right());
     const auto single = strata::render(scene, peel, profile, frame);
-    const auto found = strata::diagnose(scene, strata::picture_of(single.color()), peel, profile, frame, {}, four);
+    const auto found = strata::diagnose(scene, strata::picture_of(single.color()), peel, profile, four);
     CHECK(found.mistakes() == std::vector<std::string>{"no_samples"});
     CHECK(found.diagnosis.at_edges > 0u);
 }

@@ -14,8 +14,8 @@ const strata::Scene& teapot() {
     return scene;
 }
 
-strata::Rendering drawn_teapot(const strata::RenderOptions& options, const strata::Multisampling& sampling = {}) {
-    return strata::render(teapot(), strata::algorithm("front_to_back"), strata::profile("geforce8"), options, sampling);
+strata::Rendering drawn_teapot(const strata::RenderOptions& options) {
+    return strata::render(teapot(), strata::algorithm("front_to_back"), strata::profile("geforce8"), options);
 }
 
 const strata::RenderOptions small_frame{.width = 48, .height = 36};
@@ -50,9 +50,10 @@ TEST_CASE("the library's verdict on a wrong picture has the sentence of the comm
 }
 
 TEST_CASE("the library's verdict on a resolved picture says which option of the view looks forgotten") {
-    const strata::Multisampling four{.samples = 4};
-    const auto picture = strata::picture_of(drawn_teapot(small_frame, four).color());
-    CHECK(strata::judge(teapot(), picture, strata::profile("geforce8"), small_frame, four).is_right);
+    strata::RenderOptions four = small_frame;
+    four.sampling.samples = 4;
+    const auto picture = strata::picture_of(drawn_teapot(four).color());
+    CHECK(strata::judge(teapot(), picture, strata::profile("geforce8"), four).is_right);
     const strata::Judgement single = strata::judge(teapot(), picture, strata::profile("geforce8"), small_frame);
     CHECK_FALSE(single.is_right);
     CHECK(single.forgotten == std::vector<std::string>{"looks forgotten: --samples 4; with it the picture is right"});

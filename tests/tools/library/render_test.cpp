@@ -66,22 +66,24 @@ TEST_CASE("two of four samples of a pixel at an edge give half of the surface's 
     scene.add({.name = "half", .positions = {quad, 6}, .color = {1, 1, 1, 0.5f}});
     const auto value = [](const Image& image, int x) { return std::bit_cast<float>(image.codes[image.index(x, 2)]); };
     const DeviceProfile device = profile("ideal");
-    const Rendering picture = render(scene, algorithm("front_to_back"), device, small, {.samples = 4});
+    RenderOptions sampled = small;
+    sampled.sampling.samples = 4;
+    const Rendering picture = render(scene, algorithm("front_to_back"), device, sampled);
     CHECK(value(picture.color(), 1) == 0);
     CHECK(value(picture.color(), 2) == 0.25f);
     CHECK(value(picture.color(), 3) == 0.5f);
-    const auto taken = layers(scene, algorithm("front_to_back"), device, small, {.samples = 4});
+    const auto taken = layers(scene, algorithm("front_to_back"), device, sampled);
     REQUIRE(taken.size() == 1);
     CHECK(value(taken[0].color, 2) == 0.25f);
-    const auto shown = passes(scene, algorithm("front_to_back"), device, small, {.samples = 4});
+    const auto shown = passes(scene, algorithm("front_to_back"), device, sampled);
     CHECK(shown[0].targets.at(0).image.samples == 4);
     CHECK(shown.back().targets.at(0).image == picture.color());
-    const auto history = explain_samples(scene, 2, 2, algorithm("front_to_back"), device, small, {.samples = 4});
+    const auto history = explain_samples(scene, 2, 2, algorithm("front_to_back"), device, sampled);
     std::size_t covered = 0;
     for (const oracle::History& sample : history.samples) covered += sample.fragments.size();
     CHECK(covered == 2);
     CHECK(history.resolved[0] == std::bit_cast<std::uint32_t>(0.25f));
-    const auto single = explain_samples(scene, 3, 2, algorithm("front_to_back"), device, small, {});
+    const auto single = explain_samples(scene, 3, 2, algorithm("front_to_back"), device, small);
     CHECK(single.samples.size() == 1);
 }
 

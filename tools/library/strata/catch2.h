@@ -44,11 +44,10 @@ class MatchesReference : public CatchMatcher {
 // REQUIRE_THAT(picture, strata::MatchesScene(scene, strata::profile("geforce8"))): the verdict of judge() is "right".
 class MatchesScene : public CatchMatcher {
   public:
-    MatchesScene(const Scene& scene, DeviceProfile profile, const RenderOptions& options = {},
-                 const Multisampling& sampling = {})
-        : scene_{&scene}, profile_{std::move(profile)}, options_{options}, sampling_{sampling} {}
+    MatchesScene(const Scene& scene, DeviceProfile profile, const RenderOptions& options = {})
+        : scene_{&scene}, profile_{std::move(profile)}, options_{options} {}
     bool match(const Picture& candidate) const override {
-        const Judgement found = judge(*scene_, candidate, profile_, options_, sampling_);
+        const Judgement found = judge(*scene_, candidate, profile_, options_);
         message_ = "is a right picture of the scene: " + found.text;
         return found.is_right;
     }
@@ -58,7 +57,6 @@ class MatchesScene : public CatchMatcher {
     const Scene* scene_;  // must outlive the matcher
     DeviceProfile profile_;
     RenderOptions options_;
-    Multisampling sampling_;
     mutable std::string message_;
 };
 

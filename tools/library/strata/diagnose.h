@@ -46,16 +46,16 @@ struct Diagnosed {
 using oracle::Judgement;
 
 // The verdict on a picture, whatever exact algorithm made it. The candidate's size replaces that of `options`.
-// `sampling`: of a resolved picture. Throws InputError for a candidate without colours, and Refused if the device lacks
+// Throws InputError for a candidate without colours, and Refused if the device lacks
 // a feature.
 [[nodiscard]] Judgement judge(const Scene& scene, const Picture& candidate, const DeviceProfile& profile,
-                              const RenderOptions& options = {}, const Multisampling& sampling = {});
+                              const RenderOptions& options = {});
 
-// The candidate's size replaces that of `options`. `sampling`: of a resolved picture. Throws InputError for a candidate
+// The candidate's size replaces that of `options`. Throws InputError for a candidate
 // without a target, and Refused if the device lacks a feature.
 [[nodiscard]] Diagnosed diagnose(const Scene& scene, const Picture& candidate, const Algorithm& algorithm,
                                  const DeviceProfile& profile, const RenderOptions& options = {},
-                                 const Tolerances& tolerances = {}, const Multisampling& sampling = {});
+                                 const Tolerances& tolerances = {});
 
 }  // namespace v0_1
 }  // namespace strata

@@ -26,9 +26,8 @@ inline namespace v0_1 {
 // EXPECT_TRUE(strata::matches_scene(picture, scene, profile)): the verdict of judge() is "right".
 [[nodiscard]] inline testing::AssertionResult matches_scene(const Picture& candidate, const Scene& scene,
                                                             const DeviceProfile& profile,
-                                                            const RenderOptions& options = {},
-                                                            const Multisampling& sampling = {}) {
-    const Judgement found = judge(scene, candidate, profile, options, sampling);
+                                                            const RenderOptions& options = {}) {
+    const Judgement found = judge(scene, candidate, profile, options);
     return (found.is_right ? testing::AssertionSuccess() : testing::AssertionFailure()) << found.text;
 }
 

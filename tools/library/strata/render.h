@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "pipeline/device/check.h"
 #include "strata/names.h"
 #include "strata/picture.h"
@@ -53,9 +53,9 @@ class Rendering {
 };
 
 // With several samples per pixel colour and depth are resolved, and counts are those of all samples
-// (peeling/sampled_renderer.h).
+// (peeling/render.h).
 [[nodiscard]] Rendering render(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,
-                               const RenderOptions& options = {}, const Multisampling& sampling = {});
+                               const RenderOptions& options = {});
 
 struct Layer {
     Image color, depth;           // colour premultiplied or not, as in Algorithm::premultiplied_layers
@@ -64,7 +64,7 @@ struct Layer {
 
 // The layers from near to far; those of several samples are resolved.
 [[nodiscard]] std::vector<Layer> layers(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,
-                                        const RenderOptions& options = {}, const Multisampling& sampling = {});
+                                        const RenderOptions& options = {});
 
 // All fragments of transparent triangles, in submission order.
 [[nodiscard]] std::vector<CapturedFragment> fragments(const Scene& scene, const Algorithm& algorithm,
@@ -72,16 +72,14 @@ struct Layer {
 
 // Every pass with the contents of all targets after it, of all samples; the last entry is the picture.
 [[nodiscard]] std::vector<oracle::PassReport> passes(const Scene& scene, const Algorithm& algorithm,
-                                                     const DeviceProfile& profile, const RenderOptions& options = {},
-                                                     const Multisampling& sampling = {});
+                                                     const DeviceProfile& profile, const RenderOptions& options = {});
 
 // The history of pixel x, y, from the top left; oracle::to_text, to_json and to_svg format it.
 [[nodiscard]] oracle::History explain(const Scene& scene, int x, int y, const Algorithm& algorithm,
                                       const DeviceProfile& profile, const RenderOptions& options = {});
 // The histories of the pixel's samples, and its resolved value.
 [[nodiscard]] oracle::SampledHistory explain_samples(const Scene& scene, int x, int y, const Algorithm& algorithm,
-                                                     const DeviceProfile& profile, const RenderOptions& options,
-                                                     const Multisampling& sampling);
+                                                     const DeviceProfile& profile, const RenderOptions& options);
 
 // A user-defined algorithm, for the devices that have the features used by its passes. `body` is called for regions of
 // the frame (pipeline/region/region.h), on several threads at once, and for some regions twice. With `whole_frame` it

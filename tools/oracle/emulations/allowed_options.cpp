@@ -101,7 +101,7 @@ void add_positions(std::vector<Mistake>& all) {
         const auto word = enum_name(positions);
         all.push_back(allowed(fmt::format("sample_positions_{}", word), fmt::format("sample_positions {}", word),
                               [positions](AlteredRun& e) {
-                                  const int samples = e.sampling.samples;
+                                  const int samples = e.options.sampling.samples;
                                   if (samples == 1 || e.profile.sample_positions == positions ||
                                       pipeline::sample_points(positions, samples).empty())
                                       return false;

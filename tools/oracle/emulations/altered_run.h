@@ -1,8 +1,7 @@
 // tools/oracle/emulations/altered_run.h - the input of a run, as values that a mistake may change.
 //
 // Rule     A mistake changes one field of the scene, of the device or of the options, one step of the algorithm's run
-//          (an alteration), the samples of a pixel, or the finished image. It never replaces the algorithm. Alterations
-//          keep state: of several samples, whose frames advance at once, each has a run of its own.
+//          (an alteration), the samples of a pixel, or the finished image. It never replaces the algorithm.
 #pragma once
 #include <functional>
 #include <memory>
@@ -11,7 +10,6 @@
 #include <vector>
 
 #include "peeling/algorithms/algorithm.h"
-#include "peeling/multisampling.h"
 #include "peeling/render_options.h"
 #include "pipeline/device/profile.h"
 #include "pipeline/frame/alteration.h"
@@ -45,7 +43,6 @@ struct AlteredRun {
     pipeline::View view{};
     pipeline::DeviceProfile profile{};
     peeling::RenderOptions options{};
-    peeling::Multisampling sampling{};
     const peeling::Algorithm* algorithm = nullptr;
     RightRun right{};
     std::vector<pipeline::Alteration> alterations{};

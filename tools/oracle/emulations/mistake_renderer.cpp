@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "peeling/sample_hazard.h"
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "pipeline/device/check.h"
 #include "tools/oracle/emulations/catalogue.h"
 
@@ -24,12 +24,9 @@ auto made(auto&& run) -> std::optional<decltype(run())> {
     return std::nullopt;
 }
 
-// Of each altered run; none if they alter no steps.
-std::vector<pipeline::Alteration> alterations_of(std::span<const AlteredRun> experiments) {
-    std::vector<pipeline::Alteration> all;
-    if (experiments.front().alterations.empty()) return all;
-    for (const AlteredRun& e : experiments) all.push_back(combined(e));
-    return all;
+// Empty if the run alters no step.
+std::optional<pipeline::Alteration> alteration_of(const AlteredRun& e) {
+    return e.alterations.empty() ? std::nullopt : std::optional{combined(e)};
 }
 
 using Targets = std::vector<TargetImage>;
@@ -51,7 +48,7 @@ Targets finished(const PassReport& last, const PassReport& published, const Alte
 
 MistakeRenderer::MistakeRenderer(const RunInput& input, const peeling::Algorithm& algorithm, Depths depths, int limit)
     : input_{input}, algorithm_{algorithm}, depths_{depths}, limit_{limit} {
-    right_ = run(experiments({}), &right_run_);
+    right_ = run(altered_run(), &right_run_);
     find_enough_passes();
 }
 
@@ -59,8 +56,7 @@ AlteredRun MistakeRenderer::altered_run() const {
     AlteredRun e{.list = &input_.list,
                  .view = input_.view,
                  .profile = input_.profile,
-                 .options = input_.options,
-                 .sampling = input_.sampling};
+                 .options = input_.options};
     e.algorithm = &algorithm_;
     e.right = right_run_;
     e.options.audit = e.options.keep_layers = false;
@@ -68,21 +64,20 @@ AlteredRun MistakeRenderer::altered_run() const {
     return e;
 }
 
-Picture MistakeRenderer::run(std::span<const AlteredRun> experiments, RightRun* counted) const {
-    const AlteredRun& e = experiments.front();
-    peeling::SampledRenderer renderer{*e.list, e.view, e.profile, e.options, e.sampling};
-    const std::vector<pipeline::Alteration> alterations = alterations_of(experiments);
-    std::vector<pipeline::Instruments> instruments;
-    for (const pipeline::Alteration& alteration : alterations) instruments.push_back({.alteration = &alteration});
-    std::vector<pipeline::Image> samples;
-    peeling::RenderResult result = renderer.render(*e.algorithm, {}, e.resolve ? &samples : nullptr, instruments);
+Picture MistakeRenderer::run(const AlteredRun& e, RightRun* counted) const {
+    peeling::RenderOptions options = e.options;
+    options.keep_samples = static_cast<bool>(e.resolve);
+    peeling::Renderer renderer{*e.list, e.view, e.profile, options};
+    const std::optional<pipeline::Alteration> alteration = alteration_of(e);
+    peeling::RenderResult result =
+        renderer.render(*e.algorithm, {}, {.alteration = alteration ? &*alteration : nullptr});
     if (result.outcome == peeling::Outcome::refused) throw pipeline::Refused{e.profile, *std::move(result.refusal)};
     if (counted != nullptr) {
         counted->passes = static_cast<int>(result.frame.passes.geometry);
         counted->is_endless = std::ranges::find(result.frame.diagnostics, pipeline::Fault::endless,
                                                 &pipeline::Diagnostic::fault) != result.frame.diagnostics.end();
     }
-    if (!samples.empty()) result.frame.color = e.resolve(samples);
+    if (!result.frame.samples.empty()) result.frame.color = e.resolve(result.frame.samples);
     Picture picture{.file = "", .targets = {as_target(result.frame.color, "color")}};
     picture.targets[0].alpha_form = AlphaForm::premultiplied;
     if (depths_ == Depths::made) picture.targets.push_back(as_target(result.frame.depth, "depth"));
@@ -97,7 +92,7 @@ void MistakeRenderer::find_enough_passes() {
     for (int passes = right_run_.passes - 1; passes >= 1; --passes) {
         AlteredRun e = altered_run();
         e.options.max_passes = passes;
-        if (run({&e, 1}).targets[0].codes != right_.targets[0].codes) return;
+        if (run(e).targets[0].codes != right_.targets[0].codes) return;
         right_run_.enough_passes = passes;
     }
 }
@@ -111,51 +106,40 @@ std::optional<AlteredRun> MistakeRenderer::altered_run(std::span<const Mistake* 
         e.options.max_passes != given_limit || e.options.termination.rule == pipeline::TerminationRule::fixed;
     const int limit = limit_ > 0 ? limit_ : right_run_.is_endless ? right_run_.passes : 2 * right_run_.passes + 8;
     const bool shades_pixels = e.options.raster.interpolation != rasterizer::Interpolation::sample;
-    const bool is_of_samples = e.sampling.is_joint() || (e.sampling.samples > 1 && shades_pixels);
+    const bool is_of_samples = e.options.sampling.loads_others() || (e.options.sampling.samples > 1 && shades_pixels);
     const bool limits_itself = is_of_samples && e.alterations.empty() && limit_ == 0;
     if (!is_limited && !limits_itself && given_limit == 0 && right_run_.passes > 1) e.options.max_passes = limit;
     return e;
 }
 
-std::vector<AlteredRun> MistakeRenderer::experiments(std::span<const Mistake* const> mistakes) const {
-    std::vector<AlteredRun> all;
-    std::optional<AlteredRun> e = altered_run(mistakes);
-    if (!e) return all;
-    const int samples = e->alterations.empty() ? 1 : e->sampling.samples;
-    all.push_back(*std::move(e));
-    while (static_cast<int>(all.size()) < samples) all.push_back(*altered_run(mistakes));
-    return all;
-}
-
 std::vector<bool> MistakeRenderer::edges() const {
     std::vector<bool> edges;
-    if (input_.sampling.samples == 1) return edges;
+    if (input_.options.sampling.samples == 1) return edges;
     for (const peeling::SampleEdge edge :
-         peeling::sample_edges(input_.list, input_.view, input_.profile, input_.options, algorithm_, input_.sampling))
+         peeling::sample_edges(input_.list, input_.view, input_.profile, input_.options, algorithm_))
         edges.push_back(edge != peeling::SampleEdge::inside);
     return edges;
 }
 
 std::optional<Picture> MistakeRenderer::with(std::span<const Mistake* const> mistakes) const {
-    const std::vector<AlteredRun> all = experiments(mistakes);
-    return all.empty() ? std::nullopt : made([&] { return run(all); });
+    const std::optional<AlteredRun> e = altered_run(mistakes);
+    return e ? made([&] { return run(*e); }) : std::nullopt;
 }
 
 std::optional<PassAgreement> MistakeRenderer::compare_passes(std::span<const Mistake* const> mistakes,
                                                              const std::vector<PassPicture>& candidate) const {
-    const std::vector<AlteredRun> all = experiments(mistakes);
-    if (all.empty()) return std::nullopt;
-    const AlteredRun& e = all.front();
-    const std::vector<pipeline::Alteration> alterations = alterations_of(all);
+    const std::optional<AlteredRun> e = altered_run(mistakes);
+    if (!e) return std::nullopt;
+    const std::optional<pipeline::Alteration> alteration = alteration_of(*e);
     return made([&] {
         PassEvidence evidence{candidate};
         std::optional<PassReport> last;
         const auto add = [&](PassReport&& pass) {
             if (last)
-                evidence.add(*last, pass.kind == ReportedPassKind::published ? finished(*last, pass, e) : Targets{});
+                evidence.add(*last, pass.kind == ReportedPassKind::published ? finished(*last, pass, *e) : Targets{});
             last = std::move(pass);
         };
-        passes({*e.list, e.view, e.profile, e.options, e.sampling}, *e.algorithm, add, alterations);
+        passes({*e->list, e->view, e->profile, e->options}, *e->algorithm, add, alteration ? &*alteration : nullptr);
         return evidence.found();
     });
 }

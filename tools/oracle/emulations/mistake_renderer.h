@@ -3,9 +3,8 @@
 // Rule     An image has the stored colours, and the stored nearest depth if the caller requests depths. A run with a
 //          mistake may not terminate: its passes are limited to the caller's limit, if given; otherwise to twice those
 //          of the correct run plus eight, or to the same number if the correct run does not terminate either. If a run
-//          is refused or cannot be made, there is no image. Of several samples per pixel the image is the resolved one,
-//          passes are those of the sample that takes most, and programs that load other samples or run once a pixel
-//          have the renderer's limit instead.
+//          is refused or cannot be made, there is no image. Of several samples per pixel the image is the resolved one;
+//          programs that load other samples or run once a pixel have the renderer's limit instead.
 // Tests    tests/tools/oracle/emulations/mistake_renderer_test.cpp
 #pragma once
 #include <optional>
@@ -31,7 +30,7 @@ class MistakeRenderer {
     [[nodiscard]] const Picture& right() const noexcept { return right_; }
     [[nodiscard]] const RightRun& right_run() const noexcept { return right_run_; }
     [[nodiscard]] pipeline::ColorSpace space() const noexcept { return input_.space; }
-    [[nodiscard]] std::size_t samples() const noexcept { return static_cast<std::size_t>(input_.sampling.samples); }
+    [[nodiscard]] std::size_t samples() const noexcept { return static_cast<std::size_t>(input_.options.sampling.samples); }
     // The pixels whose samples have different fragments, row by row; empty if a pixel has one sample.
     [[nodiscard]] std::vector<bool> edges() const;
 
@@ -45,10 +44,9 @@ class MistakeRenderer {
 
   private:
     [[nodiscard]] AlteredRun altered_run() const;
+    // Empty if one of the mistakes is not applicable.
     [[nodiscard]] std::optional<AlteredRun> altered_run(std::span<const Mistake* const> mistakes) const;
-    // The same once, or for each sample if it has alterations; empty if one of the mistakes is not applicable.
-    [[nodiscard]] std::vector<AlteredRun> experiments(std::span<const Mistake* const> mistakes) const;
-    [[nodiscard]] Picture run(std::span<const AlteredRun> experiments, RightRun* counted = nullptr) const;
+    [[nodiscard]] Picture run(const AlteredRun& experiment, RightRun* counted = nullptr) const;
     void find_enough_passes();
 
     RunInput input_;

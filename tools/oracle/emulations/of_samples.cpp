@@ -16,25 +16,25 @@ using rasterizer::Interpolation;
 
 // Programs that load another sample than their own.
 bool loads(AlteredRun& e, LoadedSample in_peels, LoadedSample in_composites) {
-    if (e.sampling.samples == 1 || (e.sampling.loads == in_peels && e.sampling.composites == in_composites))
+    if (e.options.sampling.samples == 1 || (e.options.sampling.loads == in_peels && e.options.sampling.composites == in_composites))
         return false;
-    e.sampling.loads = in_peels;
-    e.sampling.composites = in_composites;
+    e.options.sampling.loads = in_peels;
+    e.options.sampling.composites = in_composites;
     return true;
 }
 
 bool shades_at(AlteredRun& e, Interpolation place) {
-    if (e.sampling.samples == 1 || e.options.raster.interpolation == place) return false;
+    if (e.options.sampling.samples == 1 || e.options.raster.interpolation == place) return false;
     e.options.raster.interpolation = place;
     return true;
 }
 
 bool shades_pixels_and_loads(AlteredRun& e, Interpolation place, LoadedSample in_peels) {
-    return shades_at(e, place) && loads(e, in_peels, e.sampling.composites);
+    return shades_at(e, place) && loads(e, in_peels, e.options.sampling.composites);
 }
 
 bool covers_by_alpha(AlteredRun& e) {
-    if (e.sampling.samples == 1 || e.options.raster.sample_coverage.by_alpha) return false;
+    if (e.options.sampling.samples == 1 || e.options.raster.sample_coverage.by_alpha) return false;
     return e.options.raster.sample_coverage.by_alpha = true;
 }
 
@@ -69,20 +69,20 @@ pipeline::Image mean_of_decoded(const std::vector<pipeline::Image>& samples) {
 const Mistake sample_mistakes[] = {
     {"no_samples", "one sample per pixel: multisampling is off", ChangedPart::samples,
      [](AlteredRun& e) {
-         if (e.sampling.samples == 1) return false;
-         e.sampling.samples = 1;
-         e.sampling.resolve = pipeline::Resolve::box;
+         if (e.options.sampling.samples == 1) return false;
+         e.options.sampling.samples = 1;
+         e.options.sampling.resolve = pipeline::Resolve::box;
          return true;
      }},
     {"resolve_before_compositing", "every layer resolved before it is composited", ChangedPart::samples,
-     [](AlteredRun& e) { return loads(e, e.sampling.loads, LoadedSample::resolved); }},
+     [](AlteredRun& e) { return loads(e, e.options.sampling.loads, LoadedSample::resolved); }},
     {"sample_0_for_all", "every program loads sample 0 for all samples", ChangedPart::samples,
      [](AlteredRun& e) { return loads(e, LoadedSample::zero, LoadedSample::zero); }},
     {"peel_loads_sample_0", "all samples are compared with sample 0's depth of the previous layer",
-     ChangedPart::samples, [](AlteredRun& e) { return loads(e, LoadedSample::zero, e.sampling.composites); }},
+     ChangedPart::samples, [](AlteredRun& e) { return loads(e, LoadedSample::zero, e.options.sampling.composites); }},
     {"peel_loads_resolved",
      "all samples are compared with the resolved depth of the previous layer: fragments are doubled on slopes",
-     ChangedPart::samples, [](AlteredRun& e) { return loads(e, LoadedSample::resolved, e.sampling.composites); }},
+     ChangedPart::samples, [](AlteredRun& e) { return loads(e, LoadedSample::resolved, e.options.sampling.composites); }},
     {"alpha_to_coverage_on", "alpha to coverage left on: alpha is applied twice", ChangedPart::samples,
      covers_by_alpha},
     {"alpha_to_coverage_on_nearest",
@@ -112,21 +112,21 @@ const Mistake sample_mistakes[] = {
      ChangedPart::samples,
      [](AlteredRun& e) {
          std::uint8_t& mask = e.options.raster.sample_coverage.mask;
-         const auto half = static_cast<std::uint8_t>((1 << (e.sampling.samples / 2)) - 1);
-         if (e.sampling.samples == 1 || mask == half) return false;
+         const auto half = static_cast<std::uint8_t>((1 << (e.options.sampling.samples / 2)) - 1);
+         if (e.options.sampling.samples == 1 || mask == half) return false;
          mask = half;
          return true;
      }},
     {"sample_0_shown", "sample 0 is shown: the samples are never resolved", ChangedPart::samples,
      [](AlteredRun& e) {
-         if (e.sampling.samples == 1) return false;
+         if (e.options.sampling.samples == 1) return false;
          e.resolve = [](const std::vector<pipeline::Image>& samples) { return samples[0]; };
          return true;
      }},
     {"resolved_in_linear_light", "encoded samples resolved as if their values were linear: decoded, and encoded again",
      ChangedPart::samples,
      [](AlteredRun& e) {
-         if (e.sampling.samples == 1) return false;
+         if (e.options.sampling.samples == 1) return false;
          e.resolve = mean_of_decoded;
          return true;
      }},

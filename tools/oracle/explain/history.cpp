@@ -44,20 +44,27 @@ bool holds(pipeline::CompareFunc func, std::uint32_t own, std::uint32_t stored) 
     return true;
 }
 
-// A pixel's codes of all samples.
-std::vector<std::uint32_t> codes_of(const Region& region, pipeline::Target target, std::uint32_t pixel) {
+// An element's codes of all samples of the target's own.
+std::vector<std::uint32_t> codes_of(const Region& region, pipeline::Target target, std::uint32_t element) {
     const pipeline::TargetStorage& storage = region.storage(target);
     std::vector<std::uint32_t> codes;
     for (int sample = 0; sample < storage.samples(); ++sample)
         for (int c = 0; c < pipeline::info(storage.format()).channels; ++c)
-            codes.push_back(storage.code(pixel, c, sample));
+            codes.push_back(storage.code(element, c, sample));
     return codes;
 }
 
+// Records what happens at one sample of pixels.
 class Recorder {
   public:
-    Recorder(const rasterizer::Rect& pixels, int frame_width, pipeline::DepthKey key, std::vector<History>& histories)
-        : pixels_{pixels}, width_{frame_width}, key_{key}, histories_{histories}, open_(histories.size()) {}
+    Recorder(const rasterizer::Rect& pixels, const peeling::RenderOptions& options, int sample, pipeline::DepthKey key,
+             std::vector<History>& histories)
+        : pixels_{pixels},
+          width_{options.width},
+          first_{sample * options.width * options.height},
+          key_{key},
+          histories_{histories},
+          open_(histories.size()) {}
 
     void name(pipeline::Target target, std::string_view name) { names_.add(target, name); }
 
@@ -85,7 +92,7 @@ class Recorder {
                 case Step::copy:
                     line.kind = e.step == Step::clear ? LineKind::clear : LineKind::copy;
                     if (e.step == Step::copy) line.from = names_.of(e.from);
-                    line.held.push_back(held(region, e.to, pixel_of(slot)));
+                    line.held.push_back(held(region, e.to, element_of(slot)));
                     line.held[0].after = line.held[0].before;
                     break;
                 case Step::query:
@@ -96,7 +103,7 @@ class Recorder {
                     break;
                 case Step::publish:
                     line.kind = LineKind::published;
-                    line.held.push_back(held(region, e.to, pixel_of(slot)));
+                    line.held.push_back(held(region, e.to, element_of(slot)));
                     break;
                 case Step::geometry:
                 case Step::full_screen: number_iteration(histories_[slot].lines, e.iteration); continue;
@@ -130,17 +137,19 @@ class Recorder {
     }
 
   private:
-    [[nodiscard]] int slot_of(std::uint32_t pixel) const {
-        const int x = static_cast<int>(pixel) % width_, y = static_cast<int>(pixel) / width_;
+    [[nodiscard]] int slot_of(std::uint32_t element) const {
+        const int pixel = static_cast<int>(element) - first_;
+        if (pixel < 0) return -1;
+        const int x = pixel % width_, y = pixel / width_;
         if (x < pixels_.x0 || x >= pixels_.x1 || y < pixels_.y0 || y >= pixels_.y1) return -1;
         return (y - pixels_.y0) * pixels_.width() + x - pixels_.x0;
     }
-    [[nodiscard]] std::uint32_t pixel_of(std::size_t slot) const {
-        return static_cast<std::uint32_t>(histories_[slot].y * width_ + histories_[slot].x);
+    [[nodiscard]] std::uint32_t element_of(std::size_t slot) const {
+        return static_cast<std::uint32_t>(first_ + histories_[slot].y * width_ + histories_[slot].x);
     }
 
-    [[nodiscard]] TargetValues held(const Region& region, pipeline::Target target, std::uint32_t pixel) const {
-        return {names_.of(target), region.storage(target).format(), codes_of(region, target, pixel), {}};
+    [[nodiscard]] TargetValues held(const Region& region, pipeline::Target target, std::uint32_t element) const {
+        return {names_.of(target), region.storage(target).format(), codes_of(region, target, element), {}};
     }
 
     // Starts the line of a fragment or of a quad's pixel, with the current values of its targets.
@@ -153,7 +162,7 @@ class Recorder {
         line.state = e.state;
         line.state.primitives = {};
         std::vector<pipeline::Target> written;
-        const std::uint32_t pixel = pixel_of(slot);
+        const std::uint32_t element = element_of(slot);
         for (const pipeline::Target target : e.state.color)
             if (target.exists()) written.push_back(target);
         if (e.state.depth.enabled) {
@@ -164,11 +173,11 @@ class Recorder {
             line.stencil_target = names_.of(e.state.stencil_target);
             written.push_back(e.state.stencil_target);
         }
-        for (const pipeline::Target target : written) line.held.push_back(held(region, target, pixel));
+        for (const pipeline::Target target : written) line.held.push_back(held(region, target, element));
         for (const pipeline::Target target : e.state.reads)
-            if (target.exists()) line.reads.push_back(held(region, target, pixel));
+            if (target.exists()) line.reads.push_back(held(region, target, element));
         for (int unit = 0; unit < e.state.depth_unit_count; ++unit)
-            line.reads.push_back(held(region, e.state.depth_units[static_cast<std::size_t>(unit)].depth, pixel));
+            line.reads.push_back(held(region, e.state.depth_units[static_cast<std::size_t>(unit)].depth, element));
         if (e.is_geometry)
             line.fragment = fragment(e, i, e.is_counted ? histories_[slot].fragments : histories_[slot].opaque);
         open_[slot] = Open{std::move(written), std::move(line)};
@@ -251,7 +260,7 @@ class Recorder {
         Open& open = *open_[slot];
         if (!open.is_dead && !open.has_passed) open.line.fate = open.sample_fate;
         for (std::size_t t = 0; t < open.written.size(); ++t)
-            open.line.held[t].after = codes_of(region, open.written[t], pixel_of(slot));
+            open.line.held[t].after = codes_of(region, open.written[t], element_of(slot));
         auto& lines = histories_[slot].lines;
         lines.push_back(std::move(open.line));
         std::ranges::move(open.taken, std::back_inserter(lines));
@@ -260,6 +269,7 @@ class Recorder {
 
     rasterizer::Rect pixels_;
     int width_;
+    int first_;  // the sample's first element
     pipeline::DepthKey key_;
     std::vector<History>& histories_;
     std::vector<std::optional<Open>> open_;
@@ -283,26 +293,16 @@ void check_pixels(const rasterizer::Rect& pixels, int width, int height) {
                          fmt::format("{},{}", pixels.x0, pixels.y0));
 }
 
-// What the observer of one sample's frame fills.
+// What is recorded of one sample.
 struct Recording {
-    Recording(const RunInput& input, const peeling::Algorithm& algorithm, const rasterizer::Rect& in_memory)
+    Recording(const RunInput& input, const peeling::Algorithm& algorithm, const rasterizer::Rect& in_memory,
+              int sample = 0)
         : histories{empty_histories(input, algorithm, in_memory)},
-          recorder{in_memory, input.options.width, algorithm.key, histories} {}
+          recorder{in_memory, input.options, sample, algorithm.key, histories} {}
     Recording(const Recording&) = delete;
     Recording& operator=(const Recording&) = delete;
 
-    [[nodiscard]] pipeline::Observer observer() {
-        return {.named = [this](pipeline::Target target, std::string_view name) { recorder.name(target, name); },
-                .step =
-                    [this](const Region& region, const StepEvent& event) {
-                        format = region.frame().depth.format;
-                        recorder.step(region, event);
-                    },
-                .stage = [this](const Region& region, const StageEvent& event) { recorder.stage(region, event); },
-                .traced = [this](const Region&, const pipeline::TraceEntry& entry) { recorder.traced(entry); }};
-    }
-
-    // `input` is that of the sample's own frame.
+    // `input` is that of a frame of the sample alone.
     [[nodiscard]] std::vector<History> finish(const RunInput& input, const peeling::Algorithm& algorithm,
                                               const rasterizer::Rect& in_memory) && {
         for (History& history : histories) {
@@ -321,39 +321,58 @@ struct Recording {
     pipeline::DepthFormat format{};
 };
 
+using Recordings = std::vector<std::unique_ptr<Recording>>;
+
+// Runs the algorithm with every effect, and returns the published picture.
+pipeline::Image record(const RunInput& input, const peeling::Algorithm& algorithm, const Recordings& recordings) {
+    const auto each = [&recordings](const auto& tell) {
+        for (const auto& recording : recordings) tell(*recording);
+    };
+    const pipeline::Observer observer{
+        .named = [&](pipeline::Target target,
+                     std::string_view name) { each([&](Recording& r) { r.recorder.name(target, name); }); },
+        .step =
+            [&](const Region& region, const StepEvent& event) {
+                each([&](Recording& r) {
+                    r.format = region.frame().depth.format;
+                    r.recorder.step(region, event);
+                });
+            },
+        .stage = [&](const Region& region,
+                     const StageEvent& event) { each([&](Recording& r) { r.recorder.stage(region, event); }); },
+        .traced = [&](const Region&,
+                      const pipeline::TraceEntry& entry) { each([&](Recording& r) { r.recorder.traced(entry); }); }};
+    RunInput everything = input;
+    everything.options.effects = pipeline::Effects::all;
+    return observe(everything, algorithm, observer);
+}
+
 }  // namespace
 
 std::vector<History> explain(const RunInput& input, const peeling::Algorithm& algorithm,
                              const rasterizer::Rect& pixels) {
     check_pixels(pixels, input.options.width, input.options.height);
     const rasterizer::Rect in_memory = peeling::AsShown{input.options, input.profile}.rect(pixels);
-    Recording recording{input, algorithm, in_memory};
-    RunInput everything = input;
-    everything.options.effects = pipeline::Effects::all;
-    const pipeline::Observer observer = recording.observer();
-    observe(everything, algorithm, {&observer, 1});
-    return std::move(recording).finish(input, algorithm, in_memory);
+    Recordings recordings;
+    recordings.push_back(std::make_unique<Recording>(input, algorithm, in_memory));
+    static_cast<void>(record(input, algorithm, recordings));
+    return std::move(*recordings[0]).finish(input, algorithm, in_memory);
 }
 
 SampledHistory explain_samples(const RunInput& input, const peeling::Algorithm& algorithm, int x, int y) {
     const rasterizer::Rect pixel{x, y, x + 1, y + 1};
     check_pixels(pixel, input.options.width, input.options.height);
     const rasterizer::Rect in_memory = peeling::AsShown{input.options, input.profile}.rect(pixel);
-    RunInput everything = input;
-    everything.options.effects = pipeline::Effects::all;
-    std::vector<std::unique_ptr<Recording>> recordings;
-    std::vector<pipeline::Observer> observers;
-    for (int sample = 0; sample < input.sampling.samples; ++sample) {
-        recordings.push_back(std::make_unique<Recording>(input, algorithm, in_memory));
-        observers.push_back(recordings.back()->observer());
-    }
-    const pipeline::Image picture = observe(everything, algorithm, observers);
-    SampledHistory result{.sampling = input.sampling, .format = picture.format};
+    Recordings recordings;
+    for (int sample = 0; sample < input.options.sampling.samples; ++sample)
+        recordings.push_back(std::make_unique<Recording>(input, algorithm, in_memory, sample));
+    const pipeline::Image picture = record(input, algorithm, recordings);
+    SampledHistory result{.sampling = input.options.sampling, .format = picture.format};
     for (std::size_t sample = 0; sample < recordings.size(); ++sample) {
         RunInput single = input;
-        single.sampling = {};
-        if (input.sampling.samples > 1)
-            pipeline::set_sample(single.options.raster, input.profile.sample_positions, input.sampling.samples, sample);
+        single.options.sampling = {};
+        if (input.options.sampling.samples > 1)
+            pipeline::set_sample(single.options.raster, input.profile.sample_positions, input.options.sampling.samples, sample);
         result.points.push_back(single.options.raster.sample.value_or(rasterizer::SamplePoint{}));
         result.samples.push_back(std::move(*recordings[sample]).finish(single, algorithm, in_memory).at(0));
         result.samples.back().sample = static_cast<int>(sample);

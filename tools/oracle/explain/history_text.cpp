@@ -125,7 +125,7 @@ std::string to_text(const SampledHistory& history) {
             fmt::format("sample {} at {},{} sixteenths of the pixel: ", s, history.points[s].x, history.points[s].y) +
             to_text(history.samples[s]);
     const peeling::Multisampling& sampling = history.sampling;
-    if (sampling.is_joint())
+    if (sampling.loads_others())
         text += fmt::format("programs load the sample: {} in geometry passes, {} in full-screen passes\n",
                             enum_name(sampling.loads), enum_name(sampling.composites));
     return text + fmt::format("the picture has {}: the {} resolve of {} samples\n", hex(history.resolved),

@@ -196,6 +196,7 @@ pipeline::Image SceneFragments::draw(const std::function<void(TileLists&&)>& tak
     options.max_passes = 0;
     options.termination = {};
     options.tile_size = tile_side;
+    options.sampling = {};
     peeling::Algorithm fragments;
     fragments.name = "fragments";
     fragments.body = [&](Region& region) {

@@ -26,8 +26,8 @@ bool is_decided(const DiagnosisQuestion& question, const Diagnosis& found) {
 }
 
 bool has_layers(const RunInput& input) {
-    return input.sampling.samples == 1 ||
-           (!input.sampling.is_joint() && input.sampling.resolve == pipeline::Resolve::box);
+    return input.options.sampling.samples == 1 ||
+           (!input.options.sampling.loads_others() && input.options.sampling.resolve == pipeline::Resolve::box);
 }
 
 // What the layers say of a picture.

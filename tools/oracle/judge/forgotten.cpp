@@ -123,6 +123,7 @@ Color in_srgb(const Color& color, pipeline::ColorSpace space) {
 peeling::RenderOptions options_of_one_sample(const RunInput& input) {
     peeling::RenderOptions options = input.options;
     options.raster.interpolation = rasterizer::Interpolation::sample;
+    options.sampling = {};
     return options;
 }
 
@@ -144,10 +145,10 @@ std::vector<SceneVariant> ways(const RunInput& input, const std::optional<SeenBa
             if (is_seen) way.background = seen->color;
             all.push_back(std::move(way));
         };
-        if (is_seen) add("", input.sampling.samples, 0, 0);
+        if (is_seen) add("", input.options.sampling.samples, 0, 0);
         for (const int samples : {4, 2, 8, 1})
-            if (samples != input.sampling.samples) add(fmt::format("--samples {}", samples), samples, 0, 0);
-        if (input.sampling.samples > 1) continue;
+            if (samples != input.options.sampling.samples) add(fmt::format("--samples {}", samples), samples, 0, 0);
+        if (input.options.sampling.samples > 1) continue;
         for (const double right : {-0.5, 0.0, 0.5})
             for (const double up : {-0.5, 0.0, 0.5})
                 if (right != 0 || up != 0) add("", 1, right, up);
@@ -175,8 +176,8 @@ pipeline::View moved_view(const RunInput& input, const SceneVariant& way) {
 bool is_right_so(const RunInput& input, const SceneVariant& way, const Colors& picture,
                  const std::vector<std::uint32_t>& wrong) {
     const pipeline::View view = moved_view(input, way);
-    RunInput so{input.list, view, input.profile, input.options, input.sampling, input.space};
-    so.sampling.samples = way.samples;
+    RunInput so{input.list, view, input.profile, input.options, input.space};
+    so.options.sampling.samples = way.samples;
     if (way.samples == 1) so.options = options_of_one_sample(input);
     if (way.background)
         for (std::size_t c = 0; c < 3; ++c) so.options.background[c] = static_cast<float>((*way.background)[c]);
@@ -243,7 +244,7 @@ std::vector<std::string> forgotten_options(const RunInput& input, const Colors& 
                                            const std::vector<std::uint32_t>& wrong_pixels, const std::string& camera,
                                            const ShowProgress& progress) {
     std::vector<std::string> sentences;
-    const SceneFragments scene{{input.list, input.view, input.profile, options_of_one_sample(input), {}, input.space},
+    const SceneFragments scene{{input.list, input.view, input.profile, options_of_one_sample(input), input.space},
                                input.options.fragment_memory};
     const Expected right = expected(scene);
     const Color given = given_background(input);
@@ -272,7 +273,7 @@ std::vector<std::string> forgotten_options(const RunInput& input, const Colors& 
             "another camera, size or scene? {} of the {} drawn pixels agree; compared with: {}, background {}",
             agree.pixels, agree.of, camera, words_of(in_srgb(given, input.space))));
     const std::size_t at_edges = smoothed(right, picture, wrong_pixels);
-    if (input.sampling.samples == 1 && !seen && wrong_pixels.size() >= few / 4 &&
+    if (input.options.sampling.samples == 1 && !seen && wrong_pixels.size() >= few / 4 &&
         10 * at_edges >= 9 * wrong_pixels.size())
         sentences.push_back(fmt::format(
             "{} of {} wrong pixels are at edges, between the colours of their neighbours: smoothed? --samples 2, 4 and "

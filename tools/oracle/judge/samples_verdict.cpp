@@ -27,7 +27,7 @@ namespace {
 // The fragments of each sample by the rules, of a part of the picture or of all of it.
 verdict::Samples samples_of(const RunInput& input, const OtherRules& rules,
                             const std::optional<rasterizer::Rect>& within = {}) {
-    const int count = input.sampling.samples;
+    const int count = input.options.sampling.samples;
     if (auto lacking = pipeline::check_multisampling(rules.profile, count))
         throw pipeline::Refused{rules.profile, *std::move(lacking)};
     verdict::Samples samples;
@@ -35,8 +35,9 @@ verdict::Samples samples_of(const RunInput& input, const OtherRules& rules,
         peeling::RenderOptions options = within ? verdict::scissored(input.options, *within) : input.options;
         options.raster.interpolation = rules.interpolation;
         pipeline::set_sample(options.raster, rules.profile.sample_positions, count, static_cast<std::size_t>(number));
+        options.sampling = {};
         samples.push_back(
-            std::make_unique<SceneFragments>(RunInput{input.list, input.view, rules.profile, options, {}, input.space},
+            std::make_unique<SceneFragments>(RunInput{input.list, input.view, rules.profile, options, input.space},
                                              std::numeric_limits<std::uint64_t>::max()));
     }
     return samples;
@@ -69,7 +70,7 @@ bool is_better(const ResolvedVerdict& a, const ResolvedVerdict& b) {
 std::optional<ResolvedVerdict> right_samples_by(const OtherRules& rules, const RunInput& input,
                                                 const verdict::Colors& candidate,
                                                 const std::vector<std::uint32_t>& wrong) {
-    if (pipeline::sample_points(rules.profile.sample_positions, input.sampling.samples).empty()) return std::nullopt;
+    if (pipeline::sample_points(rules.profile.sample_positions, input.options.sampling.samples).empty()) return std::nullopt;
     try {
         const rasterizer::Rect part = verdict::most_wrong(wrong, candidate.width());
         if (!right_resolved(samples_of(input, rules, part), candidate, wrong, part)) return std::nullopt;

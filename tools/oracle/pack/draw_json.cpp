@@ -33,7 +33,7 @@ NumberArray rows(Element element, std::size_t columns, const Items& items, Fill 
 peeling::PreparedLists lists_of(const RunInput& input) {
     rasterizer::RasterState raster = peeling::raster_state(input.options, input.profile);
     // Of several samples the draws are those of the pixel's centre.
-    if (input.sampling.samples > 1)
+    if (input.options.sampling.samples > 1)
         raster.interpolation = rasterizer::Interpolation::sample, raster.sample_coverage = {};
     pipeline::View view = input.view;
     view.vertex_path = input.options.vertex_paths.first.value_or(view.vertex_path);

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "peeling/registry.h"
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "pipeline/device/check.h"
 #include "scenes/files/profile_json.h"
 #include "scenes/files/text_file.h"
@@ -61,7 +61,7 @@ void add_layers(const RunInput& input, const peeling::Algorithm& algorithm, Targ
     options.audit = false;
     options.nearest_depth = true;
     options.keep_layers = algorithm.makes_layers;
-    peeling::SampledRenderer renderer{input.list, input.view, input.profile, options, input.sampling};
+    peeling::Renderer renderer{input.list, input.view, input.profile, options};
     peeling::RenderResult result = renderer.render(algorithm);
     if (result.refusal) throw pipeline::Refused{input.profile, *std::move(result.refusal)};
     object["depth"] = targets.write("", "depth", result.frame.depth);
@@ -80,7 +80,7 @@ void add_layers(const RunInput& input, const peeling::Algorithm& algorithm, Targ
 }
 
 ordered_json result_json(const Golden& golden, const peeling::Algorithm& algorithm, scenes::PackFiles& files) {
-    const RunInput input{golden.scene.list, *golden.scene.own_view, golden.profile, golden.options, golden.sampling};
+    const RunInput input{golden.scene.list, *golden.scene.own_view, golden.profile, golden.options};
     const std::string folder = "expected/" + algorithm.name;
     TargetWriter targets{folder, files};
     ordered_json object{{"algorithm", algorithm.name}, {"order", nullptr}};
@@ -107,9 +107,9 @@ void derive(const Golden& golden, const scenes::PackFiles::Sink& sink,
     files.add_text("profile.json", scenes::to_json(golden.profile));
     manifest["scene"] = scenes::scene_json(golden.scene, golden.color_space, files);
     manifest["view"] = scenes::view_json(*golden.scene.own_view);
-    manifest["state"] = state_json({golden.options, golden.sampling}, golden.profile);
+    manifest["state"] = state_json(golden.options, golden.profile);
     manifest["draws"] =
-        draws_json({golden.scene.list, *golden.scene.own_view, golden.profile, golden.options, golden.sampling}, files);
+        draws_json({golden.scene.list, *golden.scene.own_view, golden.profile, golden.options}, files);
     manifest["results"] = ordered_json::array();
     for (std::size_t i = 0; i < golden.algorithms.size(); ++i) {
         manifest["results"].push_back(result_json(golden, *golden.algorithms[i], files));
@@ -136,9 +136,7 @@ Golden read_pack(const std::string& path) {
     golden.scene = scenes::load_pack(path, {.color_space = golden.color_space});
     const std::string profile = scenes::pack_profile(folder);
     golden.profile = scenes::parse_profile(scenes::read_text_file(profile), profile);
-    auto [options, sampling] = read_state(manifest, file, golden.profile);
-    golden.options = std::move(options);
-    golden.sampling = sampling;
+    golden.options = read_state(manifest, file, golden.profile);
     scenes::JsonReader top{manifest, file, ""};
     top.text("command", golden.command);
     const json& results = top.at("results");

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "peeling/algorithms/algorithm.h"
-#include "peeling/multisampling.h"
 #include "peeling/render_options.h"
 #include "pipeline/device/profile.h"
 #include "scenes/packs/pack_files.h"
@@ -24,7 +23,6 @@ struct Golden {
     pipeline::ColorSpace color_space = pipeline::ColorSpace::encoded;
     pipeline::DeviceProfile profile{};
     peeling::RenderOptions options{};  // background in the frame's colour space
-    peeling::Multisampling sampling{};
     std::vector<const peeling::Algorithm*> algorithms{};
     std::string command{};  // the command that writes the same pack
 };

@@ -74,10 +74,10 @@ struct SampledState {
 constexpr const char* sampling_field = "/state/sampling";
 
 // Empty where all are their defaults.
-[[nodiscard]] std::optional<SampledState> sampled_state(const PackState& state, const DeviceProfile& profile) {
-    const rasterizer::RasterState& raster = state.options.raster;
+[[nodiscard]] std::optional<SampledState> sampled_state(const RenderOptions& options, const DeviceProfile& profile) {
+    const rasterizer::RasterState& raster = options.raster;
     SampledState sampled{.interpolation = raster.interpolation, .coverage = raster.sample_coverage};
-    const peeling::Multisampling& sampling = state.sampling;
+    const peeling::Multisampling& sampling = options.sampling;
     if (sampling.samples > 1) {
         const auto points = sample_points(profile.sample_positions, sampling.samples);
         sampled.points.assign(points.begin(), points.end());
@@ -121,8 +121,8 @@ void sampling(Io& io, std::optional<SampledState>& given) {
 
 // Of a frame of all samples: their points are those of the pack's profile.
 void take_all_samples(const SampledState& given, const std::string& file, const DeviceProfile& profile,
-                      PackState& state) {
-    if (state.options.raster.sample)
+                      RenderOptions& options) {
+    if (options.raster.sample)
         throw InputError(file, sampling_field, "the field 'number', because the state has the field 'sample'",
                          "the field 'all'");
     const auto points = sample_points(profile.sample_positions, static_cast<int>(given.points.size()));
@@ -130,7 +130,7 @@ void take_all_samples(const SampledState& given, const std::string& file, const 
         throw InputError(file, std::string{sampling_field} + "/samples",
                          "the 2, 4 or 8 sample positions of profile " + profile.name,
                          std::to_string(given.points.size()) + " other positions");
-    state.sampling = {.samples = static_cast<int>(points.size()),
+    options.sampling = {.samples = static_cast<int>(points.size()),
                       .resolve = given.all->resolve,
                       .loads = given.all->loads,
                       .composites = given.all->composites};
@@ -138,8 +138,8 @@ void take_all_samples(const SampledState& given, const std::string& file, const 
 
 // The samples' number is limited by the array; Renderer checks the rest.
 void take_sampled_state(const SampledState& given, const std::string& file, const DeviceProfile& profile,
-                        PackState& state) {
-    rasterizer::RasterState& raster = state.options.raster;
+                        RenderOptions& options) {
+    rasterizer::RasterState& raster = options.raster;
     if (given.points.size() > raster.samples.size())
         throw InputError(file, std::string{sampling_field} + "/samples", "at most 8 sample positions",
                          std::to_string(given.points.size()));
@@ -148,7 +148,7 @@ void take_sampled_state(const SampledState& given, const std::string& file, cons
                          given.all ? "both" : "neither");
     raster.interpolation = given.interpolation;
     raster.sample_coverage = given.coverage;
-    if (given.all) return take_all_samples(given, file, profile, state);
+    if (given.all) return take_all_samples(given, file, profile, options);
     if (!raster.sample)
         throw InputError(file, sampling_field, "the field 'sample' in the state, because 'number' names one sample",
                          "no such field");
@@ -229,8 +229,7 @@ void refuse(const char* field) {
 
 }  // namespace
 
-nlohmann::ordered_json state_json(const PackState& state, const DeviceProfile& profile) {
-    const RenderOptions& options = state.options;
+nlohmann::ordered_json state_json(const RenderOptions& options, const DeviceProfile& profile) {
     if (options.second_list != nullptr) refuse("second_list");
     if (options.second_depth_clamp) refuse("second_depth_clamp");
     if (options.window_origin != std::array<int, 2>{}) refuse("window_origin");
@@ -241,14 +240,13 @@ nlohmann::ordered_json state_json(const PackState& state, const DeviceProfile& p
     std::optional<peeling::AlgorithmOptions> given;
     if (options.algorithm != peeling::AlgorithmOptions{}) given = options.algorithm;
     algorithm(io, given);
-    std::optional<SampledState> sampled = sampled_state(state, profile);
+    std::optional<SampledState> sampled = sampled_state(options, profile);
     sampling(io, sampled);
     return std::move(io.object);
 }
 
-PackState read_state(const nlohmann::json& manifest, const std::string& file, const DeviceProfile& profile) {
-    PackState state;
-    RenderOptions& options = state.options;
+RenderOptions read_state(const nlohmann::json& manifest, const std::string& file, const DeviceProfile& profile) {
+    RenderOptions options;
     JsonReader top{manifest, file, ""};
     JsonReader io{top.at("state"), file, "/state"};
     fields(io, options);
@@ -257,9 +255,9 @@ PackState read_state(const nlohmann::json& manifest, const std::string& file, co
     options.algorithm = given.value_or(peeling::AlgorithmOptions{});
     std::optional<SampledState> sampled;
     sampling(io, sampled);
-    if (sampled) take_sampled_state(*sampled, file, profile, state);
+    if (sampled) take_sampled_state(*sampled, file, profile, options);
     io.end();
-    return state;
+    return options;
 }
 
 }  // namespace strata::oracle

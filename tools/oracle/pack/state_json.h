@@ -8,21 +8,17 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "peeling/multisampling.h"
 #include "peeling/render_options.h"
 #include "pipeline/device/profile.h"
 
 namespace strata::oracle {
 
-struct PackState {
-    peeling::RenderOptions options{};  // the raster conventions are those of packs
-    peeling::Multisampling sampling{};
-};
-
-// The profile is the pack's: a state of several samples contains their positions.
-[[nodiscard]] nlohmann::ordered_json state_json(const PackState& state, const pipeline::DeviceProfile& profile);
+// The raster conventions are those of packs. The profile is the pack's: a state of several samples contains their
+// positions.
+[[nodiscard]] nlohmann::ordered_json state_json(const peeling::RenderOptions& options,
+                                                const pipeline::DeviceProfile& profile);
 // `file` is the manifest's name for errors.
-[[nodiscard]] PackState read_state(const nlohmann::json& manifest, const std::string& file,
-                                   const pipeline::DeviceProfile& profile);
+[[nodiscard]] peeling::RenderOptions read_state(const nlohmann::json& manifest, const std::string& file,
+                                                const pipeline::DeviceProfile& profile);
 
 }  // namespace strata::oracle

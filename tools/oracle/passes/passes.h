@@ -5,14 +5,12 @@
 //          them; the second of one name is NAME.1, and so on: a pair that is swapped keeps its names. Under reversed
 //          depth, depth targets are reported as depths; colour targets that contain depths contain keys
 //          (rasterizer/rules/depth_key.h). The last entry is the published image.
-//          With several samples per pixel (RunInput::sampling) the samples' frames advance together: a pass is the same
-//          pass of every sample, its targets contain all samples, its counts are sums, and the published image is the
-//          resolved one. The targets of one pass are in memory at a time.
+//          With several samples per pixel targets contain all samples, counts are of samples, and the published image
+//          is the resolved one. The targets of one pass are in memory at a time.
 // Tests    tests/tools/oracle/passes/passes_test.cpp
 #pragma once
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -44,9 +42,9 @@ struct PassReport {
 };
 
 // Calls `on_pass` for one pass after another; it may keep the images. Throws Refused if the profile lacks a feature.
-// `alterations`: none, or those of each sample, which make a run with a mistake.
+// `alteration`, unless null, makes a run with a mistake.
 void passes(const RunInput& input, const peeling::Algorithm& algorithm,
-            const std::function<void(PassReport&&)>& on_pass, std::span<const pipeline::Alteration> alterations = {});
+            const std::function<void(PassReport&&)>& on_pass, const pipeline::Alteration* alteration = nullptr);
 
 // Names of targets by their numbers, for observers.
 class TargetNames {
@@ -58,11 +56,8 @@ class TargetNames {
     std::vector<std::string> names_{"opaque_depth", "opaque_color"};
 };
 
-// Renders literally, without an audit, for one observer of each sample, and returns the published picture. The samples'
-// observers are called on threads of their own; all have been told of a counted step before any is told of the next.
-// Throws Refused.
-pipeline::Image observe(const RunInput& input, const peeling::Algorithm& algorithm,
-                        std::span<const pipeline::Observer> observers,
-                        std::span<const pipeline::Alteration> alterations = {});
+// Renders literally, without an audit, for an observer, and returns the published picture. Throws Refused.
+pipeline::Image observe(const RunInput& input, const peeling::Algorithm& algorithm, const pipeline::Observer& observer,
+                        const pipeline::Alteration* alteration = nullptr);
 
 }  // namespace strata::oracle

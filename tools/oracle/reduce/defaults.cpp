@@ -27,13 +27,13 @@ bool any_of_all(std::vector<T>& values, Change change) {
 constexpr Simplification all_simplifications[] = {
     {"loads of other samples",
      [](Golden& g) {
-         const bool has_changed = becomes(g.sampling.loads, {});
-         return becomes(g.sampling.composites, {}) || has_changed;
+         const bool has_changed = becomes(g.options.sampling.loads, {});
+         return becomes(g.options.sampling.composites, {}) || has_changed;
      }},
     {"the samples of a pixel",
      [](Golden& g) {
-         if (!becomes(g.sampling.samples, 1)) return false;
-         g.sampling = {};
+         if (!becomes(g.options.sampling.samples, 1)) return false;
+         g.options.sampling = {};
          g.options.raster.interpolation = {};
          g.options.raster.sample_coverage = {};
          return true;

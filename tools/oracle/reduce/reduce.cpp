@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <set>
 
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "pipeline/device/check.h"
 #include "rasterizer/base/input_error.h"
 #include "tools/oracle/reduce/cut_scene.h"
@@ -152,13 +152,10 @@ class Reducer {
         scene.options.alpha = 1.0f;  // so that opaque ones are captured, too
         scene.options.sort = {};
         scene.options.raster.cull = rasterizer::CullFace::none;
-        peeling::SampledRenderer renderer{scene.scene.list, *scene.scene.own_view, scene.profile, scene.options,
-                                          scene.sampling};
+        peeling::Renderer renderer{scene.scene.list, *scene.scene.own_view, scene.profile, scene.options};
         std::set<std::uint32_t> numbers;
-        for (int s = 0; s < scene.sampling.samples; ++s)
-            for (const pipeline::CapturedFragment& f :
-                 renderer.sample(static_cast<std::size_t>(s)).fragments(*scene.algorithms[0]).all)
-                numbers.insert(f.primitive);
+        for (const pipeline::CapturedFragment& f : renderer.fragments(*scene.algorithms[0]).all)
+            numbers.insert(f.primitive);
         std::vector<TriangleName> found;
         for (const std::uint32_t number : numbers) found.push_back(best_.triangles[number]);
         return found;
@@ -274,7 +271,7 @@ std::string number_of(std::size_t count, const char* thing) {
 Picture right_picture(const Golden& scene) {
     peeling::RenderOptions options = scene.options;
     options.audit = options.keep_layers = options.nearest_depth = false;
-    peeling::SampledRenderer renderer{scene.scene.list, *scene.scene.own_view, scene.profile, options, scene.sampling};
+    peeling::Renderer renderer{scene.scene.list, *scene.scene.own_view, scene.profile, options};
     peeling::RenderResult result = renderer.render(*scene.algorithms.at(0));
     if (result.outcome == peeling::Outcome::refused) throw pipeline::Refused{scene.profile, *std::move(result.refusal)};
     Picture picture{.file = "", .targets = {as_target(result.frame.color, "color")}};

@@ -178,8 +178,8 @@ OpenScene open(const SuiteScene& of) {
                      .view = {},
                      .profile = *pipeline::find_profile(of.profile),
                      .options = {},
-                     .algorithm = peeling::find_algorithm(of.algorithm),
-                     .sampling = {.samples = of.samples}};
+                     .algorithm = peeling::find_algorithm(of.algorithm)};
+    opened.options.sampling.samples = of.samples;
     opened.options.width = of.width;
     opened.options.height = of.height;
     if (of.set != nullptr) of.set(opened.options);

@@ -35,8 +35,7 @@ struct OpenScene {
     pipeline::DeviceProfile profile;
     peeling::RenderOptions options;
     const peeling::Algorithm* algorithm = nullptr;
-    peeling::Multisampling sampling{};
-    [[nodiscard]] RunInput input() const { return {scene.list, view, profile, options, sampling}; }
+    [[nodiscard]] RunInput input() const { return {scene.list, view, profile, options}; }
 };
 [[nodiscard]] OpenScene open(const SuiteScene& scene);
 

@@ -113,7 +113,6 @@ Golden golden_of(const SuiteScene& of) {
     Golden golden{.scene = std::move(opened.scene),
                   .profile = std::move(opened.profile),
                   .options = opened.options,
-                  .sampling = opened.sampling,
                   .algorithms = {opened.algorithm},
                   .command = command_of(of, "golden")};
     golden.scene.own_view = opened.view;

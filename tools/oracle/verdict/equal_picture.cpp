@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "peeling/registry.h"
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "pipeline/device/check.h"
 #include "tools/oracle/picture/stored_like.h"
 #include "tools/oracle/verdict/other_rules.h"
@@ -93,12 +93,12 @@ rasterizer::Rect fullest(const SceneFragments& scene) {
 std::string equal_algorithm(const RunInput& input, const PictureQuestion& question, const rasterizer::Rect& part) {
     const rasterizer::Rect whole{0, 0, question.colors.width, question.colors.height};
     for (const std::optional<Format> format : formats_of(input, question.colors.code))
-        for (const peeling::Algorithm* const algorithm : tried(question.algorithm, input.sampling.samples)) {
+        for (const peeling::Algorithm* const algorithm : tried(question.algorithm, input.options.sampling.samples)) {
             const auto equals = [&](const rasterizer::Rect& rect) {
                 peeling::RenderOptions options = rect == whole ? input.options : scissored(input.options, rect);
                 options.audit = false;
                 options.color_format = format;
-                peeling::SampledRenderer renderer{input.list, input.view, input.profile, options, input.sampling};
+                peeling::Renderer renderer{input.list, input.view, input.profile, options};
                 const peeling::RenderResult drawn = renderer.render(*algorithm);
                 const auto own = drawn.refusal ? std::nullopt : as_stored(drawn.frame.color, question);
                 return own && is_equal(*own, question, rect);

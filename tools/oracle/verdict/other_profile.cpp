@@ -37,7 +37,7 @@ constexpr std::size_t few_wrong = 16;
 // the rest need not be rendered.
 bool may_be_right(const RunInput& input, std::uint64_t bytes, const Colors& candidate, const rasterizer::Rect& rect) {
     const peeling::RenderOptions options = scissored(input.options, rect);
-    const SceneFragments part{{input.list, input.view, input.profile, options, input.sampling, input.space}, bytes};
+    const SceneFragments part{{input.list, input.view, input.profile, options, input.space}, bytes};
     Sample sample{part.setting()};
     std::mutex mutex;
     part.for_each_tile([&](const TileLists& tile) {
@@ -75,7 +75,7 @@ std::optional<OtherProfile> right_by_rules(const RunInput& input, OtherRules rul
     const std::uint64_t bytes = input.options.fragment_memory;
     OtherProfile other{.profile = std::make_unique<pipeline::DeviceProfile>(rules.profile), .fragments = nullptr};
     other.rules = std::move(rules);
-    const RunInput by_other{input.list, input.view, *other.profile, input.options, input.sampling, input.space};
+    const RunInput by_other{input.list, input.view, *other.profile, input.options, input.space};
     try {
         if (!wrong_pixels.empty() &&
             !may_be_right(by_other, bytes, candidate, most_wrong(wrong_pixels, candidate.width())))

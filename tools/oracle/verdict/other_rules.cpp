@@ -55,7 +55,7 @@ class Lister {
 
   private:
     // Programs that load other samples than their own have one shading.
-    [[nodiscard]] bool has_shadings() const { return given_.sampling.samples > 1 && !given_.sampling.is_joint(); }
+    [[nodiscard]] bool has_shadings() const { return given_.options.sampling.samples > 1 && !given_.options.sampling.loads_others(); }
     [[nodiscard]] Origin other_origin() const {
         return given_.profile.origin == Origin::lower_left ? Origin::upper_left : Origin::lower_left;
     }
@@ -74,7 +74,7 @@ class Lister {
 std::vector<OtherRules> other_rules(const RunInput& given, std::span<const DeviceProfile> more) {
     Lister lister{given};
     lister.add("the rules of profile " + given.profile.name, given.profile);
-    const int samples = given.sampling.samples;
+    const int samples = given.options.sampling.samples;
     using pipeline::SamplePositions;
     for (const SamplePositions positions : enum_values<SamplePositions>) {
         if (samples == 1 || pipeline::sample_points(positions, samples).empty()) continue;

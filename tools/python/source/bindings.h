@@ -45,7 +45,6 @@ template <class Owner>
 // The settings that keywords give.
 struct Settings {
     RenderOptions options{};
-    Multisampling sampling{};
 };
 // Converts keyword arguments; `origin` is set in the profile. Throws TypeError for an unknown keyword and InputError
 // for an invalid value.

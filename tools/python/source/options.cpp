@@ -74,8 +74,7 @@ Settings settings_of(const py::kwargs& keywords, DeviceProfile& profile) {
         throw InputError("options", found->option, found->sentence, "");
     if (request.origin) profile = with_origin(profile, *request.origin);
     tools::complete(request, profile);
-    if (request.sample) request.sampling.samples = 1;
-    return {request.render, request.sampling};
+    return {request.render};
 }
 
 }  // namespace strata::python

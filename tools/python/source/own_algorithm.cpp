@@ -3,7 +3,9 @@
 #include <strata/pipeline/region/region.h>
 #include <strata/pipeline/region/region_shortcuts.h>
 
+#include <algorithm>
 #include <exception>
+#include <iterator>
 
 #include "bindings.h"
 
@@ -18,7 +20,8 @@ using pipeline::Target;
 std::vector<CapturedFragment> visible_fragments(Region& region) {
     std::vector<CapturedFragment> all = pipeline::RegionShortcuts{region}.capture(pipeline::Counting::counted);
     const std::uint32_t* const opaque = region.storage(region.opaque_depth()).depth(0);
-    std::erase_if(all, [&](const CapturedFragment& f) { return f.code >= opaque[f.pixel]; });
+    const auto area = static_cast<std::uint32_t>(region.rect().area());
+    std::erase_if(all, [&](const CapturedFragment& f) { return f.code >= opaque[f.sample * area + f.pixel]; });
     return all;
 }
 
@@ -53,20 +56,25 @@ py::dict arrays_of(const std::vector<CapturedFragment>& fragments) {
 
 using Colors = py::array_t<float, py::array::c_style | py::array::forcecast>;
 
-Colors colors_behind(Region& region, int width, int height) {
+Colors colors_behind(Region& region, std::uint32_t sample, int width, int height) {
     Colors colors({height, width, 4});
     float* to = colors.mutable_data();
-    for (std::uint32_t pixel = 0; pixel < region.rect().area(); ++pixel) {
-        const Rgba color = region.targets().color(region.opaque_color(), pixel);
+    const auto area = static_cast<std::uint32_t>(region.rect().area());
+    for (std::uint32_t pixel = 0; pixel < area; ++pixel) {
+        const Rgba color = region.targets().color(region.opaque_color(), sample * area + pixel);
         for (std::size_t c = 0; c < 4; ++c) *to++ = color[c];
     }
     return colors;
 }
 
-// Called with the interpreter's lock.
-Colors called(Region& region, const py::function& body, const std::vector<CapturedFragment>& fragments) {
+// Called with the interpreter's lock, for each sample of the pixels.
+Colors called(Region& region, const py::function& body, std::uint32_t sample,
+              const std::vector<CapturedFragment>& fragments) {
     const int width = region.rect().width(), height = region.rect().height();
-    const auto colors = Colors::ensure(body(width, height, arrays_of(fragments), colors_behind(region, width, height)));
+    std::vector<CapturedFragment> own;
+    std::ranges::copy_if(fragments, std::back_inserter(own), [&](const auto& f) { return f.sample == sample; });
+    const auto colors =
+        Colors::ensure(body(width, height, arrays_of(own), colors_behind(region, sample, width, height)));
     if (!colors || colors.ndim() != 3 || colors.shape(0) != height || colors.shape(1) != width || colors.shape(2) != 4)
         throw InputError("algorithm", "result", "an array of shape (height, width, 4)", "another value");
     return colors;
@@ -81,10 +89,14 @@ void run(Region& region, const py::function& body, std::exception_ptr& failed) {
     {
         const py::gil_scoped_acquire lock;
         try {
-            const Colors colors = called(region, body, fragments);
-            const float* c = colors.data();
-            for (std::uint32_t pixel = 0; pixel < region.rect().area(); ++pixel, c += 4)
-                pipeline::RegionShortcuts{region}.store_pixel(result, pixel, {c[0], c[1], c[2], c[3]});
+            const auto area = static_cast<std::uint32_t>(region.rect().area());
+            for (std::uint32_t sample = 0; sample < region.samples(); ++sample) {
+                const Colors colors = called(region, body, sample, fragments);
+                const float* c = colors.data();
+                for (std::uint32_t pixel = 0; pixel < area; ++pixel, c += 4)
+                    pipeline::RegionShortcuts{region}.store_pixel(result, sample * area + pixel,
+                                                                  {c[0], c[1], c[2], c[3]});
+            }
         } catch (...) {
             failed = std::current_exception();
         }
@@ -103,7 +115,7 @@ void bind_own_algorithm(py::module_& module) {
         const auto result = [&] {
             const Algorithm own = own_algorithm(
                 name, [&](Region& region) { run(region, body, failed); }, true);
-            return unlocked([&] { return render(scene, own, profile, settings.options, settings.sampling); });
+            return unlocked([&] { return render(scene, own, profile, settings.options); });
         }();
         if (failed) std::rethrow_exception(failed);
         return result;

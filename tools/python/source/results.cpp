@@ -13,7 +13,7 @@ struct Asked {
     DeviceProfile profile;
     Settings settings;
     const RenderOptions& options = settings.options;
-    const Multisampling& sampling = settings.sampling;
+    const Multisampling& sampling = settings.options.sampling;
     Asked(const std::string& algorithm_name, const std::string& profile_name, const py::kwargs& keywords)
         : algorithm{strata::algorithm(algorithm_name)},
           profile{strata::profile(profile_name)},
@@ -66,7 +66,7 @@ void bind_rendering(py::module_& module) {
     module.def("_render", [](const Scene& scene, const std::string& algorithm, const std::string& profile,
                              const py::kwargs& keywords) {
         const Asked asked{algorithm, profile, keywords};
-        return unlocked([&] { return render(scene, asked.algorithm, asked.profile, asked.options, asked.sampling); });
+        return unlocked([&] { return render(scene, asked.algorithm, asked.profile, asked.options); });
     });
 }
 
@@ -75,7 +75,7 @@ void bind_layers(py::module_& module) {
                              const py::kwargs& keywords) {
         const Asked asked{algorithm, profile, keywords};
         const auto found =
-            unlocked([&] { return layers(scene, asked.algorithm, asked.profile, asked.options, asked.sampling); });
+            unlocked([&] { return layers(scene, asked.algorithm, asked.profile, asked.options); });
         py::list all;
         for (const Layer& layer : *found)
             all.append(
@@ -86,7 +86,7 @@ void bind_layers(py::module_& module) {
                              const py::kwargs& keywords) {
         const Asked asked{algorithm, profile, keywords};
         const auto found =
-            unlocked([&] { return passes(scene, asked.algorithm, asked.profile, asked.options, asked.sampling); });
+            unlocked([&] { return passes(scene, asked.algorithm, asked.profile, asked.options); });
         py::list all;
         for (const oracle::PassReport& pass : *found) {
             py::dict targets, one;
@@ -111,8 +111,8 @@ void bind_layers(py::module_& module) {
 
 // Fragments and histories are of one sample.
 void expect_one_sample(const Asked& asked) {
-    if (asked.sampling.samples != 1)
-        throw InputError("options", "samples", "1 for fragments and histories", std::to_string(asked.sampling.samples));
+    if (asked.options.sampling.samples != 1)
+        throw InputError("options", "samples", "1 for fragments and histories", std::to_string(asked.options.sampling.samples));
 }
 
 void bind_fragments(py::module_& module) {
@@ -223,7 +223,7 @@ void bind_judgement(py::module_& module) {
         DeviceProfile profile = strata::profile(profile_name);
         const Settings settings = settings_of(keywords, profile);
         py::gil_scoped_release without_lock;
-        return judge(scene, candidate, profile, settings.options, settings.sampling);
+        return judge(scene, candidate, profile, settings.options);
     });
 }
 
@@ -240,7 +240,7 @@ void bind_diagnosis(py::module_& module) {
                                const std::string& profile, const Tolerances& tolerances, const py::kwargs& keywords) {
         const Asked asked{algorithm, profile, keywords};
         py::gil_scoped_release without_lock;
-        return diagnose(scene, candidate, asked.algorithm, asked.profile, asked.options, tolerances, asked.sampling);
+        return diagnose(scene, candidate, asked.algorithm, asked.profile, asked.options, tolerances);
     });
 }
 

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "peeling/registry.h"
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "pipeline/device/check.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/atomic_file.h"
@@ -73,7 +73,7 @@ oracle::Picture drawn_by(const peeling::Algorithm& algorithm, const Session& ses
                          const oracle::Picture& candidate) {
     peeling::RenderOptions options = run.render;
     options.audit = options.keep_layers = false;
-    peeling::SampledRenderer renderer{session.scene.list, session.view, session.profile, options, sampling_of(run)};
+    peeling::Renderer renderer{session.scene.list, session.view, session.profile, options};
     peeling::RenderResult result = renderer.render(algorithm);
     if (result.refusal) throw pipeline::Refused{session.profile, *std::move(result.refusal)};
     oracle::Picture picture{.file = run.scene, .targets = {oracle::as_target(result.frame.color, "color")}};
@@ -262,7 +262,7 @@ int compare_resolved(const SceneQuestion& question, const Session& session, cons
     const oracle::TargetImage& colors = colors_of(candidate);
     const oracle::RunInput input{session.scene.list,        session.view,
                                  session.profile,           question.run.render,
-                                 sampling_of(question.run), question.run.scene_options.color_space};
+                                 question.run.scene_options.color_space};
     const oracle::SamplesVerdict verdict = [&] {
         Progress bar("verdict");
         return judge_samples(input, {.colors = colors,
@@ -308,7 +308,7 @@ std::string if_linear(SceneQuestion question, const oracle::verdict::Verdict& fo
     question.run.scene_options.color_space = pipeline::ColorSpace::linear;
     const Session session = open_at_size(question, colors, candidate.file);
     const oracle::RunInput input{session.scene.list,  session.view, session.profile,
-                                 question.run.render, {},           pipeline::ColorSpace::linear};
+                                 question.run.render, pipeline::ColorSpace::linear};
     return judged(question, input, colors).is_right() ? "  with --color-space linear the picture is right\n" : "";
 }
 
@@ -320,7 +320,7 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
     if (question.run.sampling.samples > 1) return compare_resolved(question, session, candidate);
     const pipeline::DrawList& list = session.scene.list;
     const oracle::RunInput input{
-        list, session.view, session.profile, question.run.render, {}, question.run.scene_options.color_space};
+        list, session.view, session.profile, question.run.render, question.run.scene_options.color_space};
     oracle::verdict::PictureVerdict verdict = judged(question, input, colors);
     verdict.reading += if_linear(question, verdict.found, candidate);
     verdict.found.distinguishing_command = distinguishing_command(verdict.found);

@@ -95,7 +95,7 @@ struct OpenCase {
     [[nodiscard]] oracle::RunInput input() const {
         return {session.scene.list,       session.view,
                 session.profile,          options.run.render,
-                sampling_of(options.run), options.run.scene_options.color_space};
+                options.run.scene_options.color_space};
     }
     [[nodiscard]] oracle::Comparison comparison() const {
         return oracle::compare(stored_like(mistake_renderer->right(), candidate, input().space), candidate,

@@ -73,8 +73,7 @@ std::optional<Pixel> to_pixel(std::string_view text) {
 template <class Explained, class ExplainOne>
 std::string explained(ExplainOptions& options, const ExplainOne& explain_one) {
     const Session session = open_session(options.run);
-    const oracle::RunInput input{session.scene.list, session.view, session.profile, options.run.render,
-                                 sampling_of(options.run)};
+    const oracle::RunInput input{session.scene.list, session.view, session.profile, options.run.render};
     std::vector<Explained> histories;
     for (const peeling::Algorithm* algorithm : options.run.algorithms) {
         try {

@@ -127,12 +127,6 @@ void add_picture_options(CLI::App& app, RunOptions& options) {
     if (options.takes_size_of_picture) app.get_option("--size")->description(help_of_picture_size);
 }
 
-peeling::Multisampling sampling_of(const RunOptions& options) noexcept {
-    peeling::Multisampling sampling = options.sampling;
-    if (options.sample) sampling.samples = 1;
-    return sampling;
-}
-
 void complete(RunOptions& options) {
     const bool is_piped = scenes::is_standard_output(options.output);
     if (options.format && !is_piped)

@@ -78,7 +78,6 @@ void add_format_option(CLI::App& app, RunOptions& options, const std::string& he
 void complete(RunOptions& options);
 
 // The samples that a command renders: one with --sample, or all.
-[[nodiscard]] peeling::Multisampling sampling_of(const RunOptions& options) noexcept;
 
 // The command that renders the same picture of one algorithm again, in a unique spelling. It contains every option on
 // which a bit depends and that was given or differs from its default, and files without their folder; it does not

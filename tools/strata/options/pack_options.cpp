@@ -13,10 +13,8 @@ void take_pack_state(RunOptions& options, const std::string& scene) {
     scenes::note_read_pack(folder);
     const nlohmann::json manifest = scenes::read_manifest(folder);
     options.profile = scenes::pack_profile(folder);
-    const oracle::PackState state =
-        oracle::read_state(manifest, folder + "/manifest.json", scenes::load_profile(options.profile));
-    options.render = state.options;
-    options.sampling = state.sampling;
+    options.render = oracle::read_state(manifest, folder + "/manifest.json", scenes::load_profile(options.profile));
+    options.sampling = options.render.sampling;
     options.shades_pixels =
         options.sampling.samples > 1 && options.render.raster.interpolation != rasterizer::Interpolation::sample;
     options.scene_options.color_space = scenes::color_space_of(folder, manifest);

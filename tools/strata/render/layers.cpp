@@ -6,7 +6,7 @@
 #include <memory>
 #include <numeric>
 
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "scenes/files/image_io.h"
 #include "tools/oracle/passes/contact_sheet.h"
 #include "tools/strata/command.h"
@@ -98,11 +98,10 @@ void write_layers(const LayersOptions& options, const CompletedRun& finished) {
             scenes::write_layers(path, layers);
     }
     if (!options.deep.empty()) {
+        const peeling::FrameFragments found = finished.renderer.fragments(finished.algorithm);
         std::vector<scenes::DeepFragments> samples;
-        for (int sample = 0; sample < finished.samples; ++sample)
-            samples.push_back(
-                as_deep(finished.renderer.sample(static_cast<std::size_t>(sample)).fragments(finished.algorithm).all,
-                        options.run));
+        for (std::size_t sample = 0; sample < found.samples; ++sample)
+            samples.push_back(as_deep(found.of_sample(sample).all, options.run));
         scenes::write_deep(path_for(options.deep, options.run, finished.algorithm), samples, attributes);
     }
 }

@@ -9,7 +9,7 @@
 
 #include "peeling/audit/image_error.h"
 #include "peeling/registry.h"
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "pipeline/device/check.h"
 #include "tools/strata/report/survey.h"
 
@@ -17,22 +17,18 @@ namespace strata::tools {
 
 namespace {
 
-// The sums over all samples of the numbers that `count(renderer)` returns for one.
+// The sums over all samples of the numbers that `count(fragments)` returns for one.
 template <class Count>
-std::vector<double> sum_of_samples(const CompletedRun& finished, const Count& count) {
-    std::vector<double> sums = count(finished.renderer.sample(0));
-    for (int sample = 1; sample < finished.samples; ++sample) {
-        const std::vector<double> numbers = count(finished.renderer.sample(static_cast<std::size_t>(sample)));
+std::vector<double> sum_of_samples(const peeling::FrameFragments& found, const Count& count) {
+    std::vector<double> sums = count(found.of_sample(0));
+    for (std::size_t sample = 1; sample < found.samples; ++sample) {
+        const std::vector<double> numbers = count(found.of_sample(sample));
         for (std::size_t pixel = 0; pixel < sums.size(); ++pixel) sums[pixel] += numbers[pixel];
     }
     return sums;
 }
 
-Columns columns_of_frame(const RunOptions& options, peeling::Renderer& renderer) {
-    const auto pixels =
-        static_cast<std::size_t>(options.render.width) * static_cast<std::size_t>(options.render.height);
-    return columns_of(renderer.fragments(*peeling::find_algorithm("a_buffer")).all, pixels);
-}
+Columns columns(const peeling::FrameFragments& of_sample) { return columns_of(of_sample.all, of_sample.opaque.size()); }
 
 std::vector<double> complexity(const Columns& columns) {
     std::vector<double> numbers;
@@ -60,11 +56,10 @@ std::vector<double> ties(const Columns& columns) {
 }
 
 // The number of fragments of each pixel whose code is equal to that of the pixel's opaque surface.
-std::vector<double> opaque_ties(const RunOptions& options, const peeling::Algorithm& algorithm,
-                                peeling::Renderer& renderer) {
-    const peeling::FrameFragments found = renderer.fragments(algorithm);
+std::vector<double> opaque_ties(const RunOptions& options, rasterizer::DepthFormat format,
+                                const peeling::FrameFragments& found) {
     const bool is_reversed = options.render.raster.depth_order == rasterizer::DepthOrder::greater;
-    const std::uint32_t far = is_reversed ? 0 : rasterizer::max_code(renderer.depth_format());
+    const std::uint32_t far = is_reversed ? 0 : rasterizer::max_code(format);
     std::vector<double> numbers(found.opaque.size());
     for (const pipeline::CapturedFragment& f : found.all)
         if (f.code == found.opaque[f.pixel] && f.code != far) ++numbers[f.pixel];
@@ -87,14 +82,20 @@ std::vector<double> errors(const RunOptions& options, const CompletedRun& finish
 }
 
 std::vector<double> numbers_of(Map map, const RunOptions& options, const CompletedRun& finished) {
-    const auto sum = [&](const auto& count) { return sum_of_samples(finished, count); };
+    using peeling::FrameFragments;
+    peeling::Renderer& renderer = finished.renderer;
+    const peeling::Algorithm& exact = *peeling::find_algorithm("a_buffer");
     switch (map) {
         case Map::depth_complexity:
-            return sum([&](peeling::Renderer& renderer) { return complexity(columns_of_frame(options, renderer)); });
+            return sum_of_samples(renderer.fragments(exact),
+                                  [](const FrameFragments& found) { return complexity(columns(found)); });
         case Map::ties:
-            return sum([&](peeling::Renderer& renderer) { return ties(columns_of_frame(options, renderer)); });
+            return sum_of_samples(renderer.fragments(exact),
+                                  [](const FrameFragments& found) { return ties(columns(found)); });
         case Map::opaque_ties:
-            return sum([&](peeling::Renderer& renderer) { return opaque_ties(options, finished.algorithm, renderer); });
+            return sum_of_samples(renderer.fragments(finished.algorithm), [&](const FrameFragments& found) {
+                return opaque_ties(options, renderer.depth_format(), found);
+            });
         case Map::error: break;
     }
     return errors(options, finished);

@@ -42,7 +42,7 @@ void check_memory(const RunOptions& options, const Session& session, const peeli
     if (is_surely_enough(options, *limit, held)) return;
     const std::uint64_t need = held + writer_bytes(options) +
                                peeling::memory_need(session.scene.list, session.view, session.profile, options.render,
-                                                    algorithm, sampling_of(options))
+                                                    algorithm)
                                    .total();
     if (need <= *limit) return;
     throw CLI::ValidationError("--max-memory",

@@ -71,7 +71,7 @@ int render_mistaken(RunOptions& options, const std::vector<const oracle::Mistake
     if (options.output.empty()) throw CLI::ValidationError("--mistake needs -o FILE");
     const Session session = open_session(options);
     const oracle::MistakeRenderer mistake_renderer{
-        {session.scene.list, session.view, session.profile, options.render, sampling_of(options)},
+        {session.scene.list, session.view, session.profile, options.render},
         *options.algorithms[0]};
     const auto picture = mistake_renderer.with(mistakes);
     if (!picture)

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <map>
 
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "pipeline/device/check.h"
 #include "pipeline/device/sample_points.h"
 #include "scenes/camera.h"
@@ -188,7 +188,7 @@ RunSummary summarize(const peeling::Algorithm& algorithm, peeling::RenderResult&
 }
 
 // Renders, and writes the files while the pixels exist. A refused algorithm writes no file.
-RunSummary run_one(const Session& session, const peeling::Algorithm& algorithm, peeling::SampledRenderer& renderer,
+RunSummary run_one(const Session& session, const peeling::Algorithm& algorithm, peeling::Renderer& renderer,
                    int samples, const Writer& write) {
     Progress progress(algorithm.name);
     peeling::RenderResult result = renderer.render(algorithm, [&](double share) { progress.show(share); });
@@ -242,12 +242,11 @@ int run_algorithms(RunOptions& options, const Writer& write) {
     const Session session = open_session(options);
     for (const peeling::Algorithm* algorithm : options.algorithms) check_memory(options, session, *algorithm);
     // One renderer is used for all algorithms, so geometry is transformed and set up once.
-    peeling::SampledRenderer renderer(session.scene.list, session.view, session.profile, options.render,
-                                      sampling_of(options));
+    peeling::Renderer renderer(session.scene.list, session.view, session.profile, options.render);
     std::vector<RunSummary> runs;
     for (const peeling::Algorithm* algorithm : options.algorithms) {
         scenes::set_interrupt_message(undone(options, runs.size()));
-        runs.push_back(run_one(session, *algorithm, renderer, sampling_of(options).samples, write));
+        runs.push_back(run_one(session, *algorithm, renderer, options.render.sampling.samples, write));
     }
     scenes::set_interrupt_message("");
     report(options, runs, session.profile.name);

@@ -12,7 +12,7 @@ struct TargetImage;
 }
 
 namespace strata::peeling {
-class SampledRenderer;
+class Renderer;
 struct RenderResult;
 }  // namespace strata::peeling
 
@@ -41,7 +41,7 @@ void take_size(RunOptions& options, const oracle::TargetImage& picture, const st
 struct CompletedRun {
     const Session& session;
     const peeling::Algorithm& algorithm;
-    peeling::SampledRenderer& renderer;
+    peeling::Renderer& renderer;
     int samples;                    // that the renderer resolves
     peeling::RenderResult& result;  // the writer may move its layers out
 };

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "pipeline/device/check.h"
 #include "pipeline/device/sample_points.h"
 #include "rasterizer/base/input_error.h"
@@ -122,8 +122,8 @@ class Builder {
         : options_{options},
           session_{session},
           region_{region},
-          samples_{sampling_of(options).samples},
-          renderer_{session.scene.list, session.view, session.profile, options.render, sampling_of(options)} {
+          samples_{options.render.sampling.samples},
+          renderer_{session.scene.list, session.view, session.profile, options.render} {
         check_samples();
     }
 
@@ -137,7 +137,7 @@ class Builder {
             {"height", region_.height()},
             {"origin", {region_.x0, region_.y0}},
             {"frame", {options_.render.width, options_.render.height}},
-            {"depth_format", pipeline::info(pipeline::target_format(renderer_.sample(0).depth_format())).name},
+            {"depth_format", pipeline::info(pipeline::target_format(renderer_.depth_format())).name},
             {"colour", options_.scene_options.color_space == pipeline::ColorSpace::linear ? "linear" : "encoded"},
             {"most_bytes", most_bytes},
             {"left_out", ordered_json::array()},
@@ -179,6 +179,7 @@ class Builder {
     [[nodiscard]] oracle::RunInput input() const {
         oracle::RunInput input{session_.scene.list, session_.view, session_.profile, options_.render};
         if (samples_ > 1) pipeline::set_sample(input.options.raster, session_.profile.sample_positions, samples_, 0);
+        input.options.sampling = {};
         return input;
     }
 
@@ -188,7 +189,7 @@ class Builder {
     // format.
     void add_fragments() {
         frame_ = columns_of(
-            renderer_.sample(0).fragments(*peeling::find_algorithm("a_buffer")).all,
+            renderer_.fragments(*peeling::find_algorithm("a_buffer")).of_sample(0).all,
             static_cast<std::size_t>(options_.render.width) * static_cast<std::size_t>(options_.render.height));
         take_region();
         kept_ = keep(columns_);
@@ -330,7 +331,7 @@ class Builder {
     const Session& session_;
     rasterizer::Rect region_;
     int samples_;
-    peeling::SampledRenderer renderer_;
+    peeling::Renderer renderer_;
     Progress progress_{"report"};
     ReportData data_;
     Columns frame_, columns_;              // of the whole frame; of the region

@@ -152,7 +152,7 @@ Survey survey(const oracle::RunInput& input, const peeling::Algorithm& algorithm
         .step = [&](const pipeline::Region&, const pipeline::StepEvent& event) { observing.step(event); },
         .stage = [&](const pipeline::Region&, const pipeline::StageEvent& event) { observing.stage(event); },
         .traced = [&](const pipeline::Region&, const pipeline::TraceEntry& entry) { observing.traced(entry); }};
-    oracle::observe(everything, algorithm, {&observer, 1});
+    oracle::observe(everything, algorithm, observer);
     return observing.finish();
 }
 

@@ -7,7 +7,7 @@
 
 #include "peeling/registry.h"
 #include "peeling/render.h"
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "pipeline/device/sample_points.h"
 #include "pipeline/formats/resolve.h"
 #include "scenes/camera.h"
@@ -133,7 +133,7 @@ constexpr int samples = 4;
 
 RunInput of_samples(const OpenScene& opened) {
     RunInput input = opened.input();
-    input.sampling.samples = samples;
+    input.options.sampling.samples = samples;
     return input;
 }
 
@@ -150,7 +150,6 @@ Picture mean_of_samples(const OpenScene& opened, const Mistake& mistake) {
 
 }  // namespace
 
-// Steps that keep state do so for each sample.
 TEST_CASE("a mistake in a step of several samples is made in each of them") {
     for (const char* name : {"showroom.front_to_back", "showroom.dual"}) {
         const OpenScene opened = open(*find_suite_scene(name));
@@ -172,7 +171,8 @@ TEST_CASE("a mistake with samples makes the picture of the multisampling that it
         peeling::RenderOptions options = opened.options;
         change(options.raster);
         if (sampling.samples == 1) options.max_passes = 2 * mistake_renderer.right_run().passes + 8;
-        peeling::SampledRenderer renderer{opened.scene.list, opened.view, opened.profile, options, sampling};
+        options.sampling = sampling;
+        peeling::Renderer renderer{opened.scene.list, opened.view, opened.profile, options};
         return Picture{.file = "", .targets = {as_target(renderer.render(*opened.algorithm).frame.color, "color")}};
     };
     const auto same = [](rasterizer::RasterState&) {};
@@ -201,10 +201,13 @@ TEST_CASE("a mistake with samples makes the picture of the multisampling that it
 TEST_CASE("a picture that is resolved wrongly is sample 0 or the mean of decoded values and a mask draws half of all") {
     const OpenScene opened = open(*find_suite_scene("samples.front_to_back"));
     const MistakeRenderer mistake_renderer{opened.input(), *opened.algorithm};
-    peeling::SampledRenderer renderer{
-        opened.scene.list, opened.view, opened.profile, opened.options, {.samples = samples}};
-    std::vector<pipeline::Image> images;
-    const TargetImage right = as_target(renderer.render(*opened.algorithm, {}, &images).frame.color, "color");
+    peeling::RenderOptions options = opened.options;
+    options.sampling.samples = samples;
+    options.keep_samples = true;
+    peeling::Renderer renderer{opened.scene.list, opened.view, opened.profile, options};
+    const peeling::RenderResult drawn = renderer.render(*opened.algorithm);
+    const std::vector<pipeline::Image>& images = drawn.frame.samples;
+    const TargetImage right = as_target(drawn.frame.color, "color");
     const TargetImage shown = mistake_renderer.with(*find_mistake("sample_0_shown")).value().targets[0];
     const TargetImage linear = mistake_renderer.with(*find_mistake("resolved_in_linear_light")).value().targets[0];
     CHECK(shown.codes == as_target(images[0], "color").codes);

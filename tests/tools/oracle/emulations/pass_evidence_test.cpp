@@ -30,29 +30,21 @@ void add_target(const NamedImage& named, std::vector<TargetImage>& targets) {
 
 // The passes that a port with this mistake would write; those of a correct run for nullptr.
 std::vector<PassPicture> passes_with(const OpenScene& opened, const char* mistake) {
-    std::vector<AlteredRun> experiments;
-    for (int sample = 0; sample < opened.sampling.samples; ++sample) {
-        experiments.push_back(
-            {.list = &opened.scene.list, .view = opened.view, .profile = opened.profile, .options = opened.options});
-        experiments.back().sampling = opened.sampling;
-        experiments.back().algorithm = opened.algorithm;
-        experiments.back().options.max_passes = limit;
-        experiments.back().right = {.passes = 9, .enough_passes = 9};
-        if (mistake != nullptr) REQUIRE(find_mistake(mistake)->make(experiments.back()));
-    }
-    const AlteredRun& e = experiments[0];
-    std::vector<pipeline::Alteration> alterations;
-    if (!e.alterations.empty())
-        for (const AlteredRun& sample : experiments) alterations.push_back(combined(sample));
+    AlteredRun e{.list = &opened.scene.list, .view = opened.view, .profile = opened.profile, .options = opened.options};
+    e.algorithm = opened.algorithm;
+    e.options.max_passes = limit;
+    e.right = {.passes = 9, .enough_passes = 9};
+    if (mistake != nullptr) REQUIRE(find_mistake(mistake)->make(e));
+    const pipeline::Alteration alteration = combined(e);
     std::vector<PassPicture> all;
     passes(
-        {*e.list, e.view, e.profile, e.options, e.sampling}, *e.algorithm,
+        {*e.list, e.view, e.profile, e.options}, *e.algorithm,
         [&](PassReport&& pass) {
             if (pass.kind == ReportedPassKind::published) return;
             all.push_back({.number = pass.number, .iteration = pass.iteration, .has_own = true});
             for (const NamedImage& target : pass.targets) add_target(target, all.back().targets.targets);
         },
-        alterations);
+        e.alterations.empty() ? nullptr : &alteration);
     return all;
 }
 

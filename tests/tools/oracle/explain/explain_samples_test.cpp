@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "peeling/registry.h"
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "pipeline/device/sample_points.h"
 #include "tests/tools/oracle/explain/explained_scene.h"
 #include "tools/oracle/explain/history_report.h"
@@ -16,8 +16,8 @@ using namespace strata::testing;
 namespace {
 
 History history_of_sample(RunInput input, const peeling::Algorithm& algorithm, std::size_t sample, int x, int y) {
-    pipeline::set_sample(input.options.raster, input.profile.sample_positions, input.sampling.samples, sample);
-    input.sampling = {};
+    pipeline::set_sample(input.options.raster, input.profile.sample_positions, input.options.sampling.samples, sample);
+    input.options.sampling = {};
     return explain(input, algorithm, {x, y, x + 1, y + 1}).at(0);
 }
 
@@ -28,10 +28,10 @@ TEST_CASE("the histories of a pixel's samples are those of their own frames and 
     for (const char* name : {"front_to_back", "dual", "weighted_average"})
         for (const int samples : {2, 4}) {
             RunInput input = column.input("geforce8");
-            input.sampling.samples = samples;
+            input.options.sampling.samples = samples;
             const peeling::Algorithm& algorithm = *peeling::find_algorithm(name);
             const peeling::RenderResult usual =
-                peeling::SampledRenderer{input.list, input.view, input.profile, input.options, input.sampling}.render(
+                peeling::Renderer{input.list, input.view, input.profile, input.options}.render(
                     algorithm);
             int fragments = 0, differing = 0;
             for (int x = 0, y = 6; x < 16; x += 2) {
@@ -71,7 +71,7 @@ TEST_CASE("the histories of a pixel's samples are those of their own frames and 
 TEST_CASE("the report of a pixel's samples has a section for each and the resolved picture") {
     const ExplainedScene column = explained_scene("planes:count=2", 16, 12);
     RunInput input = column.input("geforce8");
-    input.sampling = {.samples = 2, .loads = pipeline::LoadedSample::zero};
+    input.options.sampling = {.samples = 2, .loads = pipeline::LoadedSample::zero};
     input.options.max_passes = 8;
     const std::vector<SampledHistory> histories{
         explain_samples(input, *peeling::find_algorithm("front_to_back"), 8, 6),

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "peeling/registry.h"
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/camera.h"
 #include "scenes/packs/pack_scene.h"
@@ -29,7 +29,7 @@ Golden sampled_golden(const peeling::Multisampling& sampling, const std::string&
     golden.options.height = 10;
     golden.options.threads = 1;
     golden.options.alpha = 0.5f;
-    golden.sampling = sampling;
+    golden.options.sampling = sampling;
     golden.scene.own_view = scenes::orbit_view(golden.scene.bounds, 30, 20, 1.2);
     golden.algorithms = {peeling::find_algorithm("front_to_back")};
     golden.command = "strata golden";
@@ -49,13 +49,13 @@ TEST_CASE("a pack of all samples has their passes and the resolved picture and i
     const auto set = GENERATE(as<int>{}, 0, 1, 2, 3);
     Golden golden = sampled_golden({.samples = set == 0 ? 2 : 4});
     if (set == 1) golden.options.raster.interpolation = rasterizer::Interpolation::centroid;
-    if (set == 2) golden.sampling.loads = pipeline::LoadedSample::resolved;
-    if (set == 2) golden.sampling.composites = pipeline::LoadedSample::zero;
+    if (set == 2) golden.options.sampling.loads = pipeline::LoadedSample::resolved;
+    if (set == 2) golden.options.sampling.composites = pipeline::LoadedSample::zero;
     if (set == 3) golden.options.raster.sample_coverage = {.by_alpha = true, .value = 0.75f, .mask = 13};
     const peeling::Algorithm& algorithm = *golden.algorithms[0];
     golden.options.keep_layers = true;
-    const peeling::RenderResult usual = peeling::SampledRenderer{golden.scene.list, *golden.scene.own_view,
-                                                                 golden.profile, golden.options, golden.sampling}
+    const peeling::RenderResult usual = peeling::Renderer{golden.scene.list, *golden.scene.own_view,
+                                                                 golden.profile, golden.options}
                                             .render(algorithm);
     golden.options.keep_layers = false;
     const test::OwnFolder folder;
@@ -71,13 +71,13 @@ TEST_CASE("a pack of all samples has their passes and the resolved picture and i
         CHECK(image_in(pack, result["layers"][k]["color"], layer.color.format) == layer.color);
     }
     CHECK(result["geometry_passes"] == usual.frame.passes.geometry);
-    for (const json& target : result["passes"][0]["targets"]) CHECK(target["samples"] == golden.sampling.samples);
+    for (const json& target : result["passes"][0]["targets"]) CHECK(target["samples"] == golden.options.sampling.samples);
     const Golden back = read_pack(pack);
-    CHECK(state_json({back.options, back.sampling}, back.profile) ==
-          state_json({golden.options, golden.sampling}, golden.profile));
-    CHECK(back.sampling.samples == golden.sampling.samples);
-    CHECK(back.sampling.loads == golden.sampling.loads);
-    CHECK(back.sampling.composites == golden.sampling.composites);
+    CHECK(state_json(back.options, back.profile) ==
+          state_json(golden.options, golden.profile));
+    CHECK(back.options.sampling.samples == golden.options.sampling.samples);
+    CHECK(back.options.sampling.loads == golden.options.sampling.loads);
+    CHECK(back.options.sampling.composites == golden.options.sampling.composites);
     CHECK(back.options.raster.interpolation == golden.options.raster.interpolation);
     CHECK(back.options.raster.sample_coverage == golden.options.raster.sample_coverage);
     CHECK(check_pack(pack).empty());

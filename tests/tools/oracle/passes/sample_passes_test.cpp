@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "peeling/registry.h"
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "pipeline/device/check.h"
 #include "pipeline/device/sample_points.h"
 #include "scenes/camera.h"
@@ -36,10 +36,11 @@ SampledScene sampled_teapot(const char* profile) {
     return l;
 }
 
-std::vector<PassReport> sampled_passes(const SampledScene& l, const peeling::Algorithm& algorithm,
+std::vector<PassReport> sampled_passes(SampledScene l, const peeling::Algorithm& algorithm,
                                        const Multisampling& sampling) {
     std::vector<PassReport> all;
-    passes({l.scene.list, l.view, l.profile, l.options, sampling}, algorithm,
+    l.options.sampling = sampling;
+    passes({l.scene.list, l.view, l.profile, l.options}, algorithm,
            [&](PassReport&& pass) { all.push_back(std::move(pass)); });
     return all;
 }
@@ -53,7 +54,8 @@ std::vector<PassReport> passes_of_sample(SampledScene l, const peeling::Algorith
 peeling::RenderResult resolved_frame(SampledScene& l, const peeling::Algorithm& algorithm,
                                      const Multisampling& sampling) {
     l.options.audit = false;
-    return peeling::SampledRenderer{l.scene.list, l.view, l.profile, l.options, sampling}.render(algorithm);
+    l.options.sampling = sampling;
+    return peeling::Renderer{l.scene.list, l.view, l.profile, l.options}.render(algorithm);
 }
 
 pipeline::Image sample_image(const pipeline::Image& all, int sample) {
@@ -189,14 +191,15 @@ TEST_CASE("a ratio of the frame is that of all samples") {
     CHECK(resolved_frame(l, algorithm, {.samples = samples}).frame.passes.geometry == static_cast<int>(middle) + 2);
 }
 
-TEST_CASE("an error of the one who takes passes ends the frames of all samples") {
-    const SampledScene l = sampled_teapot("geforce8");
+TEST_CASE("an error of the one who takes passes ends the frame") {
+    SampledScene l = sampled_teapot("geforce8");
+    l.options.sampling.samples = 4;
     int taken = 0;
     const auto take = [&](PassReport&&) {
         if (++taken == 2) throw std::runtime_error("the disk is full");
     };
     CHECK_THROWS_WITH(
-        passes({l.scene.list, l.view, l.profile, l.options, {.samples = 4}}, *peeling::find_algorithm("dual"), take),
+        passes({l.scene.list, l.view, l.profile, l.options}, *peeling::find_algorithm("dual"), take),
         "the disk is full");
     CHECK(taken == 2);
 }

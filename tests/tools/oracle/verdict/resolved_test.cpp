@@ -1,11 +1,11 @@
-// Tests verdicts on pictures with several samples per pixel against the resolved pictures of SampledRenderer, whose
+// Tests verdicts on pictures with several samples per pixel against the resolved pictures of Renderer, whose
 // samples are rendered and rounded step by step.
 #include "tools/oracle/verdict/resolved.h"
 
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 #include "pipeline/device/sample_points.h"
 #include "tests/tools/oracle/verdict/opened_scene.h"
 
@@ -23,7 +23,8 @@ oracle::TargetImage resolved(const OpenedScene& opened, const std::string& algor
     options.color_format = format;
     options.audit = false;
     if (max_passes > 0) options.max_passes = max_passes;
-    peeling::SampledRenderer renderer{opened.scene.list, opened.view, opened.profile, options, {.samples = samples}};
+    options.sampling.samples = samples;
+    peeling::Renderer renderer{opened.scene.list, opened.view, opened.profile, options};
     return oracle::as_target(renderer.render(*peeling::find_algorithm(algorithm)).frame.color, "color");
 }
 

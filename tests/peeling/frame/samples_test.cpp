@@ -1,11 +1,12 @@
 // Tests sampled frames against each sample's frame drawn separately and the mean of the codes in integers.
-#include "peeling/sampled_renderer.h"
+#include "peeling/render.h"
 
 #include <array>
 #include <catch2/catch.hpp>
 
 #include "pipeline/device/sample_points.h"
 #include "pipeline/frame/observer.h"
+#include "pipeline/frame/instruments.h"
 #include "rasterizer/base/input_error.h"
 #include "tests/peeling/rendering.h"
 #include "tests/support/random_triangles.h"
@@ -17,7 +18,7 @@ using strata::peeling::find_algorithm;
 using strata::peeling::Outcome;
 using strata::peeling::RenderOptions;
 using strata::peeling::RenderResult;
-using strata::peeling::SampledRenderer;
+using strata::peeling::Renderer;
 using strata::pipeline::find_profile;
 using strata::pipeline::Image;
 using strata::rasterizer::Interpolation;
@@ -29,17 +30,12 @@ using strata::rasterizer::Interpolation;
     return options;
 }
 
-struct Sampled {
-    RenderResult result;
-    std::vector<Image> colors;
-};
-
-[[nodiscard]] Sampled sampled(const TriangleScene& scene, const Machine& machine, const RenderOptions& options,
-                              int samples) {
-    Sampled drawn;
-    SampledRenderer renderer{scene.list, scene.view, *find_profile(machine.profile), options, {.samples = samples}};
-    drawn.result = renderer.render(*find_algorithm(machine.algorithm), {}, &drawn.colors);
-    return drawn;
+[[nodiscard]] RenderResult sampled(const TriangleScene& scene, const Machine& machine, RenderOptions options,
+                                   int samples) {
+    options.sampling.samples = samples;
+    options.keep_samples = true;
+    Renderer renderer{scene.list, scene.view, *find_profile(machine.profile), options};
+    return renderer.render(*find_algorithm(machine.algorithm));
 }
 
 [[nodiscard]] RenderResult own_frame(const TriangleScene& scene, const Machine& machine, RenderOptions options,
@@ -62,17 +58,18 @@ TEST_CASE("a frame of n samples is n frames at the samples resolved to the mean 
         for (const int samples : {2, 4, 8}) {
             if (samples == 8 && machine.profile == "geforce3") continue;
             INFO(machine.profile << ' ' << machine.algorithm << ", " << samples << " samples");
-            const Sampled drawn = sampled(scene, machine, sampled_options(), samples);
-            REQUIRE(drawn.result.outcome == Outcome::done);
-            REQUIRE(drawn.colors.size() == static_cast<std::size_t>(samples));
-            std::vector<std::uint32_t> sum(drawn.colors[0].codes.size());
+            const RenderResult drawn = sampled(scene, machine, sampled_options(), samples);
+            const std::vector<Image>& colors = drawn.frame.samples;
+            REQUIRE(drawn.outcome == Outcome::done);
+            REQUIRE(colors.size() == static_cast<std::size_t>(samples));
+            std::vector<std::uint32_t> sum(colors[0].codes.size());
             std::uint64_t wrong = 0, unlike = 0, errors = 0;
             int passes = 0;
             std::vector<std::uint32_t> nearest(sum.size() / 4, ~0u);
-            for (std::size_t s = 0; s < drawn.colors.size(); ++s) {
+            for (std::size_t s = 0; s < colors.size(); ++s) {
                 const RenderResult own = own_frame(scene, machine, sampled_options(), samples, s);
-                wrong += own.frame.color == drawn.colors[s] ? 0 : 1;
-                unlike += drawn.colors[s] == drawn.colors[0] ? 0 : 1;
+                wrong += own.frame.color == colors[s] ? 0 : 1;
+                unlike += colors[s] == colors[0] ? 0 : 1;
                 passes = std::max(passes, own.frame.passes.geometry);
                 errors += own.audit.order_errors.value_or(0);
                 for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += own.frame.color.codes[i];
@@ -80,13 +77,13 @@ TEST_CASE("a frame of n samples is n frames at the samples resolved to the mean 
                     nearest[i] = std::min(nearest[i], own.frame.depth.codes[i]);
             }
             CHECK(wrong == 0);
-            CHECK(unlike + 1 == drawn.colors.size());
+            CHECK(unlike + 1 == colors.size());
             for (std::size_t i = 0; i < sum.size(); ++i)
-                wrong += drawn.result.frame.color.codes[i] != mean_code(sum[i], static_cast<std::uint32_t>(samples));
-            for (std::size_t i = 0; i < nearest.size(); ++i) wrong += drawn.result.frame.depth.codes[i] != nearest[i];
+                wrong += drawn.frame.color.codes[i] != mean_code(sum[i], static_cast<std::uint32_t>(samples));
+            for (std::size_t i = 0; i < nearest.size(); ++i) wrong += drawn.frame.depth.codes[i] != nearest[i];
             CHECK(wrong == 0);
-            CHECK(drawn.result.frame.passes.geometry == passes);
-            if (machine.algorithm != "weighted_average") CHECK(drawn.result.audit.order_errors == errors);
+            CHECK(drawn.frame.passes.geometry == passes);
+            if (machine.algorithm != "weighted_average") CHECK(drawn.audit.order_errors == errors);
             CHECK(errors == 0);
         }
 }
@@ -94,19 +91,19 @@ TEST_CASE("a frame of n samples is n frames at the samples resolved to the mean 
 TEST_CASE("a frame of one sample is the frame at the pixel centre as without samples") {
     const TriangleScene scene = random_triangles(1202, 30);
     const Machine machine{"geforce8", "front_to_back"};
-    const Sampled one = sampled(scene, machine, sampled_options(), 1);
+    const RenderResult one = sampled(scene, machine, sampled_options(), 1);
     const RenderResult plain = render(scene.list, scene.view, machine, sampled_options());
-    CHECK(one.result.frame.color == plain.frame.color);
-    CHECK(one.result.frame.depth == plain.frame.depth);
+    CHECK(one.frame.color == plain.frame.color);
+    CHECK(one.frame.depth == plain.frame.depth);
 }
 
 TEST_CASE("a frame of one sample has no sample coverage") {
     const TriangleScene scene = random_triangles(1202, 20);
     const Machine machine{"geforce8", "front_to_back"};
     RenderOptions options = sampled_options();
-    const RenderResult all = sampled(scene, machine, options, 1).result;
+    const RenderResult all = sampled(scene, machine, options, 1);
     options.raster.sample_coverage.mask = 0;
-    CHECK(sampled(scene, machine, options, 1).result.frame.color == all.frame.color);
+    CHECK(sampled(scene, machine, options, 1).frame.color == all.frame.color);
 }
 
 TEST_CASE("under reversed depth the depth of a sampled frame is the greatest of its samples") {
@@ -119,20 +116,20 @@ TEST_CASE("under reversed depth the depth of a sampled frame is the greatest of 
         const strata::pipeline::ImageCodes own = own_frame(scene, machine, options, 4, s).frame.depth.codes;
         for (std::size_t i = 0; i < own.size(); ++i) greatest[i] = std::max(greatest[i], own[i]);
     }
-    CHECK(sampled(scene, machine, options, 4).result.frame.depth.codes == greatest);
+    CHECK(sampled(scene, machine, options, 4).frame.depth.codes == greatest);
 }
 
 TEST_CASE("every execution and tile size draws the same samples") {
     const TriangleScene scene = random_triangles(1203, 40);
     for (const char* algorithm : {"front_to_back", "dual", "k_buffer"}) {
         const Machine machine{"ideal", algorithm};
-        const Image first = sampled(scene, machine, sampled_options(), 4).result.frame.color;
+        const Image first = sampled(scene, machine, sampled_options(), 4).frame.color;
         for (const Running& running : all_ways_of_running)
             for (const int tile : {8, 64}) {
                 RenderOptions options = sampled_options();
                 running.apply(options);
                 options.tile_size = tile;
-                CHECK(sampled(scene, machine, options, 4).result.frame.color == first);
+                CHECK(sampled(scene, machine, options, 4).frame.color == first);
             }
     }
 }
@@ -144,10 +141,10 @@ TEST_CASE("every execution shades the same pixels at the centre and centroid") {
             const Machine machine{"ideal", algorithm};
             RenderOptions options = sampled_options();
             options.raster.interpolation = interpolation;
-            const RenderResult first = sampled(scene, machine, options, 4).result;
+            const RenderResult first = sampled(scene, machine, options, 4);
             for (const Running& running : all_ways_of_running) {
                 running.apply(options);
-                const RenderResult result = sampled(scene, machine, options, 4).result;
+                const RenderResult result = sampled(scene, machine, options, 4);
                 CHECK(result.frame.color == first.frame.color);
                 CHECK(result.frame.depth == first.frame.depth);
                 CHECK(result.audit == first.audit);
@@ -160,7 +157,7 @@ TEST_CASE("layer k of a sampled frame is the mean of layer k of every sample cou
     for (const Machine& machine : {Machine{"geforce8", "front_to_back"}, Machine{"geforce8_dx101", "dual"}}) {
         RenderOptions options = sampled_options();
         options.keep_layers = true;
-        const Sampled drawn = sampled(scene, machine, options, 4);
+        const RenderResult drawn = sampled(scene, machine, options, 4);
         using strata::pipeline::Side;
         std::size_t layers = 0;
         std::uint64_t wrong = 0;
@@ -176,7 +173,7 @@ TEST_CASE("layer k of a sampled frame is the mean of layer k of every sample cou
                 }
             }
             std::size_t k = 0;
-            for (const auto& layer : drawn.result.frame.layers) {
+            for (const auto& layer : drawn.frame.layers) {
                 if (layer.side != side) continue;
                 REQUIRE(k < sums.size());
                 for (std::size_t i = 0; i < sums[k].size(); ++i)
@@ -200,9 +197,11 @@ TEST_CASE("Quincunx is available only on GeForce3 with two samples") {
     for (const auto origin : {strata::pipeline::Origin::upper_left, strata::pipeline::Origin::lower_left}) {
         geforce3.origin = origin;
         const int next = origin == strata::pipeline::Origin::lower_left ? -1 : 1;
-        SampledRenderer renderer{scene.list, scene.view, geforce3, sampled_options(), {2, Resolve::quincunx}};
-        std::vector<Image> colors;
-        const RenderResult result = renderer.render(algorithm, {}, &colors);
+        RenderOptions options = sampled_options();
+        options.sampling = {2, Resolve::quincunx};
+        options.keep_samples = true;
+        const RenderResult result = Renderer{scene.list, scene.view, geforce3, options}.render(algorithm);
+        const std::vector<Image>& colors = result.frame.samples;
         REQUIRE(colors.size() == 2);
         const Image& corner = colors[0];
         std::uint64_t wrong = 0;
@@ -216,9 +215,10 @@ TEST_CASE("Quincunx is available only on GeForce3 with two samples") {
         CHECK(wrong == 0);
     }
     const auto refusal_of = [&](const char* profile, int samples) {
-        SampledRenderer other{
-            scene.list, scene.view, *find_profile(profile), sampled_options(), {samples, Resolve::quincunx}};
-        const RenderResult refused = other.render(algorithm);
+        RenderOptions options = sampled_options();
+        options.sampling = {samples, Resolve::quincunx};
+        const RenderResult refused =
+            Renderer{scene.list, scene.view, *find_profile(profile), options}.render(algorithm);
         return refused.refusal ? refused.refusal->message(*find_profile(profile)) : "";
     };
     CHECK(refusal_of("geforce8", 2) ==
@@ -230,7 +230,7 @@ TEST_CASE("Quincunx is available only on GeForce3 with two samples") {
 TEST_CASE("features that no device supports with several samples are rejected") {
     const TriangleScene scene = random_triangles(1205, 4);
     const auto refusal_of = [&](const Machine& machine, int samples) {
-        const RenderResult result = sampled(scene, machine, sampled_options(), samples).result;
+        const RenderResult result = sampled(scene, machine, sampled_options(), samples);
         return result.refusal ? result.refusal->message(*find_profile(machine.profile)) : "";
     };
     CHECK(refusal_of({"geforce3", "depth_units"}, 8)
@@ -246,63 +246,53 @@ TEST_CASE("features that no device supports with several samples are rejected") 
     CHECK_THROWS_AS(render(scene.list, scene.view, {"softpipe", "dual"}, beside), strata::InputError);
 }
 
-TEST_CASE("frames of samples with instruments make the same passes and the bits of frames without") {
+TEST_CASE("a frame with an observer makes the passes and the bits of one without at every sample") {
     const TriangleScene scene = random_triangles(1207, 40);
-    const RenderOptions options = sampled_options();
-    constexpr std::size_t samples = 4;
+    RenderOptions options = sampled_options();
+    options.sampling.samples = 4;
     for (const char* name : {"front_to_back", "dual"}) {
         const Machine machine{"geforce8", name};
-        std::array<int, samples> passes{}, queries{};
-        std::array<strata::pipeline::Observer, samples> observers;
-        std::array<strata::pipeline::Instruments, samples> instruments;
-        for (std::size_t s = 0; s < samples; ++s) {
-            observers[s].step = [&, s](const auto&, const strata::pipeline::StepEvent& event) {
-                passes[s] += event.is_counted && event.step == strata::pipeline::Step::geometry ? 1 : 0;
-                queries[s] += event.step == strata::pipeline::Step::query ? 1 : 0;
-            };
-            instruments[s].observer = &observers[s];
-        }
-        SampledRenderer renderer{scene.list, scene.view, *find_profile(machine.profile), options, {.samples = samples}};
-        const RenderResult result = renderer.render(*find_algorithm(machine.algorithm), {}, nullptr, instruments);
-        const RenderResult expected = sampled(scene, machine, options, samples).result;
+        int passes = 0, queries = 0;
+        strata::pipeline::Observer observer;
+        observer.step = [&](const auto&, const strata::pipeline::StepEvent& event) {
+            passes += event.is_counted && event.step == strata::pipeline::Step::geometry ? 1 : 0;
+            queries += event.step == strata::pipeline::Step::query ? 1 : 0;
+        };
+        Renderer renderer{scene.list, scene.view, *find_profile(machine.profile), options};
+        const RenderResult result = renderer.render(*find_algorithm(machine.algorithm), {}, {.observer = &observer});
+        const RenderResult expected = sampled(scene, machine, options, 4);
         INFO(name);
         CHECK(result.frame.color == expected.frame.color);
         CHECK(result.frame.depth == expected.frame.depth);
-        for (std::size_t s = 0; s < samples; ++s) {
-            CHECK(passes[s] == static_cast<int>(expected.frame.passes.geometry));
-            CHECK(queries[s] == queries[0]);
-        }
-        CHECK(queries[0] > 0);
+        CHECK(result.audit == expected.audit);
+        CHECK(passes == static_cast<int>(expected.frame.passes.geometry));
+        CHECK(queries > 0);
     }
 }
 
-// Instruments let the frames of all samples advance together, so that their counts are added.
-TEST_CASE("a ratio of samples counted together is one of all samples") {
+TEST_CASE("a query counts the samples and a ratio is one of all samples") {
     const TriangleScene scene = random_triangles(1207, 40);
     RenderOptions options = sampled_options();
     options.termination = {.rule = strata::pipeline::TerminationRule::ratio, .ratio = 0.25};
-    constexpr std::size_t samples = 4;
-    const double of_one = 0.25 * 61 * 47, of_all = of_one * samples;
-    std::array<strata::pipeline::Observer, samples> observers;
-    std::array<strata::pipeline::Instruments, samples> instruments;
+    options.sampling.samples = 4;
+    const double of_one = 0.25 * 61 * 47, of_all = of_one * 4;
+    strata::pipeline::Observer observer;
     int between = 0, wrong = 0;
-    for (auto& observer : observers) observer.step = [](const auto&, const auto&) {};
-    observers[0].step = [&](const auto&, const strata::pipeline::StepEvent& event) {
+    observer.step = [&](const auto&, const strata::pipeline::StepEvent& event) {
         if (event.step != strata::pipeline::Step::query) return;
         const auto passed = static_cast<double>(event.passed);
         wrong += event.answer == (passed >= of_all) ? 0 : 1;
         between += passed >= of_one && passed < of_all ? 1 : 0;
     };
-    for (std::size_t s = 0; s < samples; ++s) instruments[s].observer = &observers[s];
-    SampledRenderer renderer{scene.list, scene.view, *find_profile("geforce8"), options, {.samples = samples}};
-    static_cast<void>(renderer.render(*find_algorithm("front_to_back"), {}, nullptr, instruments));
+    Renderer renderer{scene.list, scene.view, *find_profile("geforce8"), options};
+    const RenderResult literal = renderer.render(*find_algorithm("front_to_back"), {}, {.observer = &observer});
     CHECK(wrong == 0);
     CHECK(between == 1);
-    instruments[1].observer = nullptr;
-    CHECK_THROWS_AS(renderer.render(*find_algorithm("front_to_back"), {}, nullptr, instruments), std::invalid_argument);
+    CHECK(renderer.render(*find_algorithm("front_to_back")).frame.color == literal.frame.color);
 }
 
-TEST_CASE("counts of a sampled frame are the sums and greatest counts of its samples") {
+// A sample whose own frame would have ended takes part in the later passes of the others, and is rasterized in them.
+TEST_CASE("counts of a sampled frame are sums over its samples and its passes are the most of a sample") {
     bool has_greater_before_last = false;
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         const TriangleScene scene = random_triangles(1300 + seed, 16, 0.3f);
@@ -310,15 +300,18 @@ TEST_CASE("counts of a sampled frame are the sums and greatest counts of its sam
         RenderOptions options = sampled_options();
         options.counters = true;
         for (const Machine& one : {machine, peel}) {
-            const auto result = sampled(scene, one, options, 4).result;
+            const RenderResult result = sampled(scene, one, options, 4);
             std::uint64_t order_errors = 0, passed = 0, fragments = 0, visited = 0;
             int iterations = 0, full_screen = 0;
             for (std::size_t s = 0; s < 4; ++s) {
                 const RenderResult own = own_frame(scene, one, options, 4, s);
                 order_errors += own.audit.order_errors.value_or(0);
-                passed += own.frame.counters->fragments_rasterized;
-                fragments += own.frame.work.fragments;
-                visited += own.frame.work.visited;
+                const auto made = static_cast<std::uint64_t>(own.frame.passes.geometry),
+                           all = static_cast<std::uint64_t>(result.frame.passes.geometry);
+                const std::uint64_t of_pass = own.frame.counters->fragments_rasterized / made;
+                passed += of_pass * all;
+                fragments += own.frame.work.fragments + of_pass * (all - made);
+                visited += own.frame.work.visited + of_pass * (all - made);
                 has_greater_before_last |= s == 3 && own.frame.iterations < iterations;
                 iterations = std::max(iterations, static_cast<int>(own.frame.iterations));
                 full_screen = std::max(full_screen, static_cast<int>(own.frame.passes.full_screen));
