@@ -120,8 +120,8 @@ MemoryNeed memory_need(const DrawList& list, const View& view, const DeviceProfi
         std::uint64_t{static_cast<unsigned>(options.width)} * static_cast<unsigned>(options.height);
     const auto channels = static_cast<std::uint64_t>(found.channels);
     const bool keeps_samples = samples > 1 && (options.audit || options.keep_samples);
-    need.pictures = pixels * word_bytes *
-                    (channels * (keeps_samples ? samples + 1 : 1) + (options.nearest_depth ? 1 : 0));
+    need.pictures =
+        pixels * word_bytes * (channels * (keeps_samples ? samples + 1 : 1) + (options.nearest_depth ? 1 : 0));
 
     const auto tile = static_cast<std::uint64_t>(tile_size_of(options, algorithm));
     const std::uint64_t region = found.is_tiled ? tile * tile : pixels;

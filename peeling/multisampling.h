@@ -2,8 +2,7 @@
 //
 // Source   pipeline/reference/fragment-stages.md 13
 #pragma once
-#include "pipeline/formats/resolve.h"
-#include "pipeline/frame/frame.h"
+#include "pipeline/frame/run_settings.h"
 
 namespace strata::peeling {
 

@@ -70,7 +70,7 @@ struct RenderOptions {
     AlgorithmOptions algorithm{};  // options of single algorithms
     bool counters = false;         // count fragments by outcome, and bytes: the frame then runs literally
     bool keep_layers = false;
-    bool keep_samples = false;     // the picture of every sample
+    bool keep_samples = false;  // the picture of every sample
     bool audit = true;          // order_errors and the other comparisons with a_buffer
     bool nearest_depth = true;  // also render the depth image
     // The viewport's corner on its surface, in pixels; positions are translated by it exactly.

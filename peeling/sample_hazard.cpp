@@ -73,7 +73,7 @@ std::vector<RegionTrace> traces_of(const std::vector<RegionTrace>& traces, std::
     std::vector<RegionTrace> own;
     for (const RegionTrace& trace : traces) {
         const std::size_t area = trace.rect.area();
-        RegionTrace& kept = own.emplace_back(trace.rect);
+        RegionTrace& kept = own.emplace_back(RegionTrace{trace.rect, {}});
         for (TraceEntry entry : trace.entries) {
             if (entry.pixel / area != sample) continue;
             entry.pixel = static_cast<std::uint32_t>(entry.pixel % area);
@@ -170,8 +170,7 @@ std::vector<SampleEdge> sample_edges(const DrawList& list, const View& view, con
     const HazardInput input{list, view, profile, options, algorithm};
     const std::size_t pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
     std::vector<Primitives> primitives;
-    for (std::size_t s = 0; s < input.samples(); ++s)
-        primitives.push_back(primitives_of(layers_of(input, s), pixels));
+    for (std::size_t s = 0; s < input.samples(); ++s) primitives.push_back(primitives_of(layers_of(input, s), pixels));
     std::vector<SampleEdge> edges(pixels);
     for (std::size_t p = 0; p < pixels; ++p) edges[p] = edge_of(primitives, p);
     return edges;

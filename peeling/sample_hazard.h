@@ -8,8 +8,8 @@
 // Source   pipeline/reference/fragment-stages.md 13.5; peel_errors.h.
 // Tests    tests/peeling/frame/sample_hazard_test.cpp
 #pragma once
-#include "peeling/render_options.h"
 #include "peeling/render.h"
+#include "peeling/render_options.h"
 #include "pipeline/device/check.h"
 #include "pipeline/formats/image.h"
 
@@ -25,12 +25,12 @@ struct SampleHazard {
     std::uint64_t at_silhouettes = 0, at_inner_edges = 0, inside = 0;
     std::uint64_t programs = 0;  // runs of the program if one pass draws everything
     int passes = 0;
-    bool ended = true;           // false: stopped by a limit, as a peel that finds the same layer in every pass
-    pipeline::Image picture;     // resolved
+    bool ended = true;        // false: stopped by a limit, as a peel that finds the same layer in every pass
+    pipeline::Image picture;  // resolved
 };
 
-// The options say how many samples a pixel has and where programs are evaluated (RasterState::interpolation). All fragments and traces are held in
-// memory, so frames should be of modest size.
+// The options say how many samples a pixel has and where programs are evaluated (RasterState::interpolation). All
+// fragments and traces are held in memory, so frames should be of modest size.
 [[nodiscard]] SampleHazard measure_samples(const pipeline::DrawList& list, const pipeline::View& view,
                                            const pipeline::DeviceProfile& profile, const RenderOptions& options,
                                            const Algorithm& algorithm);

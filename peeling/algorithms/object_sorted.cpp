@@ -58,7 +58,7 @@ std::size_t front_object(Region& region, const Objects& remaining, Target neares
         if (region.limit_reached(2)) return 0;
         if (!is_occluded(region, remaining, i, nearest)) return i;
     }
-    region.report(Fault::out_of_order, "no object lies in front of all others: the first is taken");
+    report(region, Fault::out_of_order, "no object lies in front of all others: the first is taken");
     return 0;
 }
 

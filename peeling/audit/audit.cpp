@@ -30,14 +30,14 @@ using rasterizer::Rect;
 namespace in_parts {
 
 // A region, or some rows of it, or part of a row: of all samples, or of one.
-struct Part : RegionArea {
+struct AuditPart : RegionArea {
     std::optional<std::size_t> sample{};
 };
 
 // The results for some parts of the frame, and the parts that did not fit into the memory.
 struct Looked {
     AuditResult found;
-    std::vector<Part> left;
+    std::vector<AuditPart> left;
     void add(Looked&& other) {
         merge(found, other.found);
         left.insert(left.end(), other.left.begin(), other.left.end());
@@ -58,7 +58,7 @@ void move(PixelCount& count, int dx, int dy) {
 }
 
 // The requested sum is what this pixel's fragment lists need, doubled because traces have the other half.
-[[noreturn]] void throw_too_deep(const Part& pixel, std::uint32_t fragments, std::uint64_t bytes) {
+[[noreturn]] void throw_too_deep(const AuditPart& pixel, std::uint32_t fragments, std::uint64_t bytes) {
     const std::uint64_t list_bytes = fragments * AuditMemory::bytes_per_fragment * 2;
     const std::uint64_t needed = list_bytes > bytes ? list_bytes : 2 * bytes;  // the length of the trace is not known
     throw InputError("audit", "--fragment-memory",
@@ -128,7 +128,7 @@ struct Audit::Impl {
     }
 
     // Audits all pixels of a part whose fragments fit, range by range.
-    [[nodiscard]] Looked look_at(const Part& part, const PixelTraces* traces, const FrameResult& result,
+    [[nodiscard]] Looked look_at(const AuditPart& part, const PixelTraces* traces, const FrameResult& result,
                                  const AuditMemory& memory) {
         RegionStatistics statistics;
         Region region{still, part, statistics, {}, &pool};
@@ -173,9 +173,9 @@ struct Audit::Impl {
         // useless, and finish() runs the tile again.
         const bool is_traced = !has_order() || RegionShortcuts{region}.trace().is_complete();
         std::optional<PixelTraces> traces;
-        if (has_order() && is_traced) traces.emplace(RegionShortcuts{region}.trace(), region.rect(), region.samples());
+        if (has_order() && is_traced) traces.emplace(RegionShortcuts{region}.trace(), region.rect(), region.elements());
         const auto look_at_place = [&](std::size_t place) {
-            const Part part{places[place]};
+            const AuditPart part{places[place]};
             found_at[place] =
                 is_traced ? look_at(part, traces ? &*traces : nullptr, result, shared) : Looked{{}, {part}};
         };
@@ -193,7 +193,7 @@ struct Audit::Impl {
         move(there.found.ties, dx, dy);
         move(there.found.misordered, dx, dy);
         move(there.found.opaque_ties, dx, dy);
-        for (Part& part : there.left) {
+        for (AuditPart& part : there.left) {
             const auto [x0, y0, x1, y1] = part.rect;
             part = {{{x0 + dx, y0 + dy, x1 + dx, y1 + dy}, to.tile, to.extent}, part.sample};
         }
@@ -201,7 +201,7 @@ struct Audit::Impl {
 
     // Runs a part again, split into as many parts as the memory requires. Single pixels that do not fit are returned.
     // Parts are taken from the end of `open`, so that at most the halves of one descent are waiting at a time.
-    [[nodiscard]] Looked run_again(const Part& part, const FrameResult& result, const AuditMemory& memory,
+    [[nodiscard]] Looked run_again(const AuditPart& part, const FrameResult& result, const AuditMemory& memory,
                                    RegionScratchPool& scratch) {
         Frame again = frame;
         again.trace = has_order();
@@ -209,9 +209,9 @@ struct Audit::Impl {
         // Only the trace is needed; the frame has already stored the user's other results.
         again.keep_layers = again.nearest_depth = false;
         Looked looked;
-        std::vector<Part> open{part};
+        std::vector<AuditPart> open{part};
         while (!open.empty()) {
-            const Part next = open.back();
+            const AuditPart next = open.back();
             open.pop_back();
             RegionStatistics statistics;
             // The queries return the frame's answers: a part by itself might get other answers and end earlier.
@@ -220,7 +220,7 @@ struct Audit::Impl {
             const bool fits = run_traced(region);
             if (fits) {
                 std::optional<PixelTraces> traces;
-                if (has_order()) traces.emplace(RegionShortcuts{region}.trace(), next.rect, region.samples());
+                if (has_order()) traces.emplace(RegionShortcuts{region}.trace(), next.rect, region.elements());
                 looked.add(look_at(next, traces ? &*traces : nullptr, result, memory));
             } else if (next.rect.area() == 1) {
                 looked.left.push_back(next);
@@ -243,7 +243,7 @@ struct Audit::Impl {
         return RegionShortcuts{region}.trace().is_complete();
     }
 
-    [[nodiscard]] Looked run_all_again(const std::vector<Part>& parts, const FrameResult& result,
+    [[nodiscard]] Looked run_all_again(const std::vector<AuditPart>& parts, const FrameResult& result,
                                        const AuditMemory& memory) {
         RegionScratchPool scratch;
         std::vector<Looked> looked(parts.size());
@@ -255,7 +255,7 @@ struct Audit::Impl {
     }
 
     // A part that is left is one pixel.
-    [[noreturn]] void throw_too_large(const Part& left) {
+    [[noreturn]] void throw_too_large(const AuditPart& left) {
         RegionStatistics statistics;
         Region region{still, left, statistics, {}, &pool};
         throw_too_deep(left, std::ranges::max(coverage_of(region)), bytes);

@@ -13,8 +13,8 @@ namespace strata::peeling {
 
 using namespace pipeline;
 
-PixelTraces::PixelTraces(Trace& trace, const rasterizer::Rect& rect, std::size_t samples)
-    : trace_{trace}, rect_{rect}, head_(samples * rect.area(), none) {
+PixelTraces::PixelTraces(Trace& trace, const rasterizer::Rect& rect, std::size_t elements)
+    : trace_{trace}, rect_{rect}, head_(elements, none) {
     for (std::size_t i = trace.size(); i-- > 0;)  // from the end, so that links run forward
         trace[i].pixel = std::exchange(head_[trace[i].pixel], static_cast<std::uint32_t>(i));
 }

@@ -21,8 +21,8 @@ namespace strata::peeling {
 // Links the entries of a finished trace by pixel, in trace order; the trace is consumed.
 class PixelTraces {
   public:
-    // `rect` is the traced region's. Takes 4 bytes per sample of a pixel; the entries are linked in place.
-    PixelTraces(pipeline::Trace& trace, const rasterizer::Rect& rect, std::size_t samples = 1);
+    // `rect` is the traced region's. Takes 4 bytes per element; the entries are linked in place.
+    PixelTraces(pipeline::Trace& trace, const rasterizer::Rect& rect, std::size_t elements);
 
     // Fills `sequence` with the composited layers from near to far: those composited UNDER, in order, then those
     // composited OVER, last first. `backs` is scratch space for the latter.

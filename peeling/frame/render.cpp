@@ -200,7 +200,7 @@ FrameFragments Renderer::fragments(const Algorithm& algorithm) {
     FrameFragments found;
     const Body capture = [&](Region& region) {
         found.all = RegionShortcuts{region}.capture(Counting::counted);
-        found.samples = region.samples();
+        found.samples = region.elements() / region.rect().area();
         const std::uint32_t* opaque = region.storage(region.opaque_depth()).depth(0);
         found.opaque.assign(opaque, opaque + region.elements());
         region.publish(region.opaque_color());

@@ -52,14 +52,16 @@ inline void composite_under(const pipeline::FragmentBatch& in, pipeline::Outputs
     std::copy_n(in.code.begin(), lanes(in), out.key.begin());
 }
 
-// A set of pixels of a region.
+// A set of pixels of a region, each sample by itself.
 class PixelSet {
   public:
-    explicit PixelSet(const pipeline::Region& region) : has_(region.elements()) {}
-    // True if the pixel was not yet in the set.
-    bool add(std::uint32_t pixel) {
-        if (has_[pixel]) return false;
-        has_[pixel] = true;
+    explicit PixelSet(const pipeline::Region& region)
+        : area_{static_cast<std::uint32_t>(region.rect().area())}, has_(region.elements()) {}
+    // True if the element was not yet in the set.
+    bool add(std::uint32_t element) {
+        if (has_[element]) return false;
+        has_[element] = true;
+        const std::uint32_t pixel = element % area_;
         first_ = pixels_++ == 0 || pixel < first_ ? pixel : first_;
         return true;
     }
@@ -72,6 +74,7 @@ class PixelSet {
     }
 
   private:
+    std::uint32_t area_;
     std::vector<bool> has_;
     std::uint64_t pixels_ = 0;
     std::uint32_t first_ = 0;

@@ -12,10 +12,6 @@
 
 namespace strata::pipeline {
 
-// How a picture is computed from its samples. box: the mean of a pixel's own samples. quincunx: NV20's filter for two
-// samples per pixel, which also reads samples of the neighbouring pixels.
-enum class Resolve : std::uint8_t { box, quincunx };
-
 class ColorResolve {
   public:
     // `samples` is the number of images that will be added: 1, 2, 4 or 8.

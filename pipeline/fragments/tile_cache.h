@@ -2,11 +2,11 @@
 // blended values stay in binary32 and are rounded when their tile is written back.
 //
 // Rule     The frame is divided into tiles of 64 x 64 pixels, the cache has 50 slots; tile (x, y) uses slot (x + 5 y)
-//          mod 50. Every sample of a frame has tiles and slots of its own. A fragment that passes its tests fetches its tile; in a pass without tests so does a fragment that
-//          the program discards. The tile that occupied the slot is written back: each channel is rounded to the
-//          target's format. A fetched value is the value of its code; a blended value is neither rounded nor, on 8-bit
-//          targets, converted to a code, but clamped to 0..1 before and after the blend. At the end of a pass all tiles
-//          are written back.
+//          mod 50. Every sample of a frame has tiles and slots of its own. A fragment that passes its tests fetches its
+//          tile; in a pass without tests so does a fragment that the program discards. The tile that occupied the slot
+//          is written back: each channel is rounded to the target's format. A fetched value is the value of its code; a
+//          blended value is neither rounded nor, on 8-bit targets, converted to a code, but clamped to 0..1 before and
+//          after the blend. At the end of a pass all tiles are written back.
 // Source   pipeline/reference/fragment-stages.md 9.5; mesa-rasterizers.md 3.5.
 // Numbers  A value is written back only if a fragment was blended at it since it was fetched, so that no other value
 //          changes. In frames of more than 5 x 10 tiles, tiles share slots: a region smaller than the frame then throws

@@ -3,8 +3,8 @@
 //
 // Rule     Fragments have indices 0, 1, 2, ... in submission order, after texture and MASK; fragments killed by MASK
 //          have none. With several samples per pixel a "pixel" is an element of the region, and the fragments of each
-//          sample are in submission order, those of sample 0 first. Their values are in arrays by index. A record that would exceed its limit is discarded, and its
-//          region rasterizes every pass.
+//          sample are in submission order, those of sample 0 first. Their values are in arrays by index. A record that
+//          would exceed its limit is discarded, and its region rasterizes every pass.
 // Layout   One array per value; the channels of a colour are stored together, because passes fetch fragments at
 //          scattered indices. A coverage mask of samples would be one more array: nothing else here depends on the
 //          number of depths per pixel.

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "pipeline/device/profile.h"
-#include "pipeline/formats/resolve.h"
 #include "pipeline/frame/run_settings.h"
 #include "pipeline/stages/depth_compare.h"
 #include "pipeline/vertices/draw_list.h"
@@ -24,10 +23,6 @@ struct Replay {
 
 struct PreparedDraw;
 struct ShadowStage;
-
-// The sample that a program's loads read: its own, sample 0, or all of them resolved
-// (pipeline/reference/fragment-stages.md 13.5 and 13.3).
-enum class LoadedSample : std::uint8_t { own, zero, resolved };
 
 // Every sample of a pixel is an element of the frame's targets, and what a pass does with a fragment it does at each
 // sample that the fragment covers.
@@ -65,7 +60,7 @@ struct Frame {
     LoadedSample composites = LoadedSample::own;  // of full-screen passes
     Resolve resolve = Resolve::box;               // of the picture and of layers, which quincunx does not filter
     bool keep_samples = false;                    // also return the picture of every sample
-    Format average_count = Format::r16f;  // weighted_average's fragment count: r16f as in the paper, or r32f
+    Format average_count = Format::r16f;          // weighted_average's fragment count: r16f as in the paper, or r32f
 
     [[nodiscard]] rasterizer::Rect rect() const noexcept;  // the rectangle of its viewport
     [[nodiscard]] int samples() const noexcept;            // of a pixel

@@ -22,7 +22,7 @@ struct Work {                     // work actually done; may depend on the execu
 struct FrameResult {
     Image color;                 // resolved, if a pixel has several samples
     std::vector<Image> samples;  // the picture of every sample, if the frame keeps them and has several
-    Image depth;  // nearest visible key, if requested
+    Image depth;                 // nearest visible key, if requested
     std::vector<PeeledLayer> layers;
     int iterations = 0;
     PassCount passes;

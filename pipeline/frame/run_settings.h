@@ -24,6 +24,14 @@ enum class DepthKey : std::uint8_t { shader_z, stored_code };
 // The form of a listing with errata: repaired with minimal changes, or as printed.
 enum class Formulation : std::uint8_t { resolved, published };
 
+// The sample that a program's loads read: its own, sample 0, or all of them resolved
+// (pipeline/reference/fragment-stages.md 13.5 and 13.3).
+enum class LoadedSample : std::uint8_t { own, zero, resolved };
+
+// How a picture is computed from its samples. box: the mean of a pixel's own samples. quincunx: NV20's filter for two
+// samples per pixel, which also reads samples of the neighbouring pixels.
+enum class Resolve : std::uint8_t { box, quincunx };
+
 enum class Effects : std::uint8_t { needed, all };  // all: simulate every stage even if nothing needs it; same bits
 
 }  // namespace strata::pipeline

@@ -8,9 +8,9 @@
 
 #include "pipeline/fragments/tile_parts.h"
 #include "pipeline/frame/termination.h"
+#include "pipeline/region/frame_pictures.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
-#include "pipeline/region/region_shortcuts.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/parallel.h"
 
@@ -42,12 +42,6 @@ class FrameRun {
         regions_.resize(areas_.size());
         look_alike_.assign(regions_.size(), no_look_alike);
         for (std::size_t r = 0; r < regions_.size(); ++r) weight_of_all_ += weight(r);
-        const rasterizer::Rect rect = frame.rect();
-        result_.color = Image::for_overwrite(frame.picture_format(), rect.width(), rect.height());
-        if (keeps_samples()) result_.samples.assign(static_cast<std::size_t>(frame.samples()), result_.color);
-        if (frame.nearest_depth)
-            result_.depth =
-                Image::for_overwrite(target_format(frame.key_request().format), rect.width(), rect.height());
     }
 
     FrameResult finish() {
@@ -62,44 +56,12 @@ class FrameRun {
         if (extent_ == Extent::tile && frame_.max_passes > 0 && regions_[0].statistics.loops.size() > 1) limit_loops();
         settle();
         gather();
-        if (frame_.samples() > 1 && frame_.resolve == Resolve::quincunx)
-            result_.color = quincunx(result_.samples[0], result_.samples[1]);
-        if (!frame_.keep_samples) result_.samples.clear();
+        pictures_.finish();
         return std::move(result_);
     }
 
   private:
-    // The filter of quincunx reads samples of neighbouring pixels, which other regions have.
-    [[nodiscard]] bool keeps_samples() const {
-        return frame_.samples() > 1 && (frame_.keep_samples || frame_.resolve == Resolve::quincunx);
-    }
-
-    // Writes the part of the frame's pictures that a region has drawn.
-    void write_pictures(Region& region, Target published) {
-        const RegionShortcuts shortcuts{region};
-        for (std::size_t sample = 0; sample < result_.samples.size(); ++sample)
-            shortcuts.write_image(published, sample, result_.samples[sample]);
-        if (region.samples() == 1) return shortcuts.write_image(published, 0, result_.color);
-        copy_into(region.targets().resolved(published), region.rect(), result_.color);
-    }
-
-    void write_nearest(Region& region) {
-        RegionShortcuts shortcuts{region};
-        const Target nearest = shortcuts.nearest_depth();
-        if (region.samples() == 1) return shortcuts.write_image(nearest, 0, result_.depth);
-        copy_into(region.targets().resolved(nearest), region.rect(), result_.depth);
-    }
-
     [[nodiscard]] const rasterizer::Rect& rect(std::size_t r) const { return areas_[r].rect; }
-
-    // Copies a part of the frame to its position; parts are disjoint, so threads do not conflict.
-    void copy_into(const Image& part, const rasterizer::Rect& at, Image& whole) const {
-        const auto row = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.channels());
-        for (int y = 0; y < part.height; ++y)
-            std::copy_n(part.codes.begin() + static_cast<std::ptrdiff_t>(part.index(0, y)), row,
-                        whole.codes.begin() + static_cast<std::ptrdiff_t>(
-                                                  whole.index(at.x0 - frame_.rect().x0, at.y0 - frame_.rect().y0 + y)));
-    }
 
     // True if no list has a triangle in tile `r`, and the frame promises that the body's result there does not depend
     // on the position (execution.md 6).
@@ -141,11 +103,9 @@ class FrameRun {
     void copy_blank(std::size_t r) {
         regions_[r] = regions_[look_alike_[r]];
         regions_[r].fragments = regions_[r].statistics.fragments_processed = 0;
-        copy(look_alike_[r], r, result_.color);
-        for (Image& sample : result_.samples) copy(look_alike_[r], r, sample);
+        pictures_.copy(rect(look_alike_[r]), rect(r));
         if (callbacks_.alike) callbacks_.alike(look_alike_[r], r);
         show(r);
-        if (frame_.nearest_depth) copy(look_alike_[r], r, result_.depth);
     }
 
     // A region's share of the progress: its triangles in every list plus one.
@@ -164,16 +124,6 @@ class FrameRun {
         progress_(std::min(1.0, static_cast<double>(done) / static_cast<double>(weight_of_all_)));
     }
 
-    // Copies tile `from` of a frame's image to tile `to`, which has the same size.
-    void copy(std::size_t from, std::size_t to, Image& image) const {
-        const auto row = static_cast<std::size_t>(rect(from).width()) * static_cast<std::size_t>(image.channels());
-        const auto at = [&](std::size_t r, int y) {
-            return image.codes.begin() + static_cast<std::ptrdiff_t>(image.index(rect(r).x0 - frame_.rect().x0,
-                                                                                 rect(r).y0 - frame_.rect().y0 + y));
-        };
-        for (int y = 0; y < rect(from).height(); ++y) std::copy_n(at(from, y), row, at(to, y));
-    }
-
     // Runs region `r` with the answers of `script`; further answers are guessed from its own counts (region_loop.cpp).
     // The image of the nearest depth does not depend on answers, so the first run writes its final values.
     void run_region(std::size_t r, const Answers& script) {
@@ -184,9 +134,9 @@ class FrameRun {
         Region region{frame_, areas_[r], statistics, instruments_, &scratch_};
         body_(region);
         region.targets().report_overflow(statistics.published);
-        write_pictures(region, statistics.published);
+        pictures_.write(region, statistics.published);
         RegionRun& kept = regions_[r];
-        if (frame_.nearest_depth && kept.runs == 0) write_nearest(region);
+        if (frame_.nearest_depth && kept.runs == 0) pictures_.write_nearest(region);
         kept.fragments += statistics.fragments_drawn;
         kept.statistics = std::move(statistics);
         ++kept.runs;
@@ -353,8 +303,8 @@ class FrameRun {
                     kept.color = Image::for_overwrite(part.color.format, whole.width(), whole.height());
                     kept.depth = Image::for_overwrite(part.depth.format, whole.width(), whole.height());
                 }
-                copy_into(part.color, rect(r), kept.color);
-                copy_into(part.depth, rect(r), kept.depth);
+                pictures_.copy_into(part.color, rect(r), kept.color);
+                pictures_.copy_into(part.depth, rect(r), kept.depth);
                 if (layer + 1 < layers.size()) layers[layer] = {};  // frees memory for the next layer
             }
             result_.layers.push_back(std::move(kept));
@@ -377,6 +327,7 @@ class FrameRun {
     std::vector<std::size_t> blanks_, look_alike_;  // blank regions that ran; per region, the one that it is a copy of
     std::vector<int> passes_before_;                // per loop; empty until a limit needs them
     FrameResult result_;
+    FramePictures pictures_{frame_, result_};
     std::size_t weight_of_all_ = 0;
     std::atomic<std::size_t> weight_done_{0};
     // Sums over all threads, in clock ticks. Only their ratio is reported; no result bit depends on time.

@@ -45,8 +45,8 @@ FragmentPathProgram::FragmentPathProgram(const Region& region, const FragmentPat
     // (pipeline/reference/devices.md 6).
     if (auto lacking = check(region.profile(), Feature::depth_replace))
         throw Refused{region.profile(), {"texture shaders", lacking->extension, lacking->way_out}};
-    for (std::size_t sample = 0; sample < region.samples(); ++sample)
-        devices_.push_back(device_of(region, path.shader, sample));
+    for (int sample = 0; sample < region.frame().samples(); ++sample)
+        devices_.push_back(device_of(region, path.shader, static_cast<std::size_t>(sample)));
 }
 
 // A disabled stage gets no texture, so that it neither counts loads nor creates a feedback loop. Colours are needed as

@@ -28,12 +28,11 @@ void RegionShared::trace(const TraceEntry& entry) const {
     if (const Observer* o = instruments.observer; o != nullptr && o->traced) o->traced(region, entry);
 }
 
-void RegionShared::report(Fault fault, std::uint64_t elements, std::uint32_t first, std::string detail) const {
+void RegionShared::report(Fault fault, std::uint64_t elements, std::uint32_t first_pixel, std::string detail) const {
     if (elements == 0) return;
     const auto width = static_cast<std::uint32_t>(rect().width());
-    const std::uint32_t pixel = first % static_cast<std::uint32_t>(pixels());
-    merge(statistics.diagnostics, {fault, elements, rect().x0 + static_cast<int>(pixel % width),
-                                   rect().y0 + static_cast<int>(pixel / width), std::move(detail)});
+    merge(statistics.diagnostics, {fault, elements, rect().x0 + static_cast<int>(first_pixel % width),
+                                   rect().y0 + static_cast<int>(first_pixel / width), std::move(detail)});
 }
 
 // The trace is empty after the opaque scene.
@@ -59,8 +58,8 @@ Region::~Region() {
     pool_->give(std::move(scratch_));
 }
 
-void Region::report(Fault fault, std::string detail) {
-    merge(shared_.statistics.diagnostics, {fault, 0, -1, -1, std::move(detail)});
+void report(Region& region, Fault fault, std::string detail) {
+    merge(region.shared_.statistics.diagnostics, {fault, 0, -1, -1, std::move(detail)});
 }
 
 void copy_color(Region& region, Target from, Target to) {

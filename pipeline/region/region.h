@@ -38,7 +38,6 @@ class Region {
     [[nodiscard]] const DeviceProfile& profile() const noexcept { return shared_.profile(); }
     [[nodiscard]] rasterizer::Rect rect() const noexcept { return shared_.rect(); }
     // Targets have an element for every sample of every pixel: sample * rect().area() + pixel.
-    [[nodiscard]] std::size_t samples() const noexcept { return shared_.samples(); }
     [[nodiscard]] std::size_t elements() const noexcept { return shared_.elements(); }
 
     // Contents are 0; targets are created in the same order in every region. Throws Refused for more samples than the
@@ -100,14 +99,14 @@ class Region {
     template <FragmentProgram P>
     void trace_pixels(Target read, P&& program);
     void trace(const TraceEntry& entry) { shared_.trace(entry); }  // one step that is not part of a pass
-    // `elements` of this region, the first of them at index `first`.
-    void report(Fault fault, std::uint64_t elements, std::uint32_t first, std::string detail) {
-        shared_.report(fault, elements, first, std::move(detail));
+    // `elements` of this region are affected; `first_pixel` is the first of their pixels.
+    void report(Fault fault, std::uint64_t elements, std::uint32_t first_pixel, std::string detail) {
+        shared_.report(fault, elements, first_pixel, std::move(detail));
     }
-    void report(Fault fault, std::string detail);  // without a pixel
 
   private:
     friend class RegionShortcuts;
+    friend void report(Region& region, Fault fault, std::string detail);
 
     void draw_opaque();
     [[nodiscard]] PassState altered(const PassState& state, PassKind kind);
@@ -128,6 +127,8 @@ class Region {
     FragmentSource source_;
     Loop loop_;
 };
+
+void report(Region& region, Fault fault, std::string detail);  // without a pixel
 
 // Copies the colours of a target to another: a bit copy, or a quad if the formats differ.
 void copy_color(Region& region, Target from, Target to);

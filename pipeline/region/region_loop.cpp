@@ -24,7 +24,8 @@ void Loop::begin_iteration() {
 bool Loop::any(Count count, Idle idle) {
     if (shared_.frame.termination.rule == TerminationRule::fixed) return true;  // no query at all
     if (shared_.instruments.log_passes) ++shared_.statistics.pass_log.queries;
-    if (!shared_.instruments.trust_idle) idle = Idle::no;
+    // A pass whose programs load other samples may composite a fragment again, though none passes its tests.
+    if (!shared_.instruments.trust_idle || shared_.frame.loads_others()) idle = Idle::no;
     LoopStatistics& loop = shared_.statistics.loops.back();
     const std::size_t index = loop.decisions.size(), number = shared_.statistics.loops.size() - 1;
     const bool is_known = number < shared_.statistics.script.size() && index < shared_.statistics.script[number].size();
@@ -32,8 +33,7 @@ bool Loop::any(Count count, Idle idle) {
     if (is_known) {
         answer = shared_.statistics.script[number][index];
     } else if (shared_.is_frame()) {
-        answer =
-            continues(shared_.frame.termination, shared_.frame.rect(), count.own_, shared_.frame.samples());
+        answer = continues(shared_.frame.termination, shared_.frame.rect(), count.own_, shared_.frame.samples());
     } else {
         answer = count.own_ > 0;
     }

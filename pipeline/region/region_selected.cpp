@@ -64,8 +64,8 @@ bool bounds_suit(const PassState& state, DepthKey key) {
 // Requires that the tile's fragments fit into memory and can be sorted.
 bool FragmentSource::find_fragments(const PassState& state, const PreparedDraw& list) {
     const FragmentSelection& selection = state.selection;
-    const bool is_plain_run =
-        may_record(list) && !shared_.frame.loads_others() && !shared_.instruments.log_passes && shared_.frame.termination.rule != TerminationRule::ratio;
+    const bool is_plain_run = may_record(list) && !shared_.frame.loads_others() && !shared_.instruments.log_passes &&
+                              shared_.frame.termination.rule != TerminationRule::ratio;
     const bool tests_codes = state.depth.enabled && selection.keeps != KeptFragments::interval;
     if (!is_plain_run || state.replaces_depth || !has_tests_of_its_kind(state, stages_.samples()) ||
         (tests_codes && shared_.frame.key != DepthKey::stored_code) || !bounds_suit(state, shared_.frame.key) ||
@@ -202,8 +202,8 @@ void FragmentSource::finish_submitted(const PassState& state) {
     }
 }
 
-// Computes the window positions of a batch's elements from their indices. A tile has at most 2^14 pixels in rows of up to
-// 2^7, so the reciprocal's error, below 2^-21 per pixel, adds up to less than one pixel's share of a row.
+// Computes the window positions of a batch's elements from their indices. A tile has at most 2^14 pixels in rows of up
+// to 2^7, so the reciprocal's error, below 2^-21 per pixel, adds up to less than one pixel's share of a row.
 void FragmentSource::find_positions(FragmentBatch& batch) const {
     const auto width = static_cast<std::uint32_t>(shared_.rect().width()),
                x0 = static_cast<std::uint32_t>(shared_.rect().x0);

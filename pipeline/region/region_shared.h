@@ -63,9 +63,12 @@ struct RegionShared {
         instruments.observer->step(region, event);
     }
     void trace(const TraceEntry& entry) const;  // and reports it
-    // Diagnostics refer to pixels of the window, not of the region: `elements` of them, the first at region index
-    // `first`.
-    void report(Fault fault, std::uint64_t elements, std::uint32_t first, std::string detail) const;
+    // Diagnostics refer to pixels of the window, not of the region: `elements` are affected, the first of their pixels
+    // has region index `first_pixel`.
+    void report(Fault fault, std::uint64_t elements, std::uint32_t first_pixel, std::string detail) const;
+    [[nodiscard]] std::uint32_t pixel_of(std::uint32_t element) const noexcept {
+        return element % static_cast<std::uint32_t>(pixels());
+    }
 
   private:
     friend class Region;

@@ -18,13 +18,13 @@ Trace& RegionShortcuts::trace() noexcept { return region_.scratch_->trace; }
 void RegionShortcuts::count_coverage(std::span<std::uint32_t> coverage) {
     constexpr FragmentNeeds nothing{false, false, false, false, false, false};
     const Frame& frame = region_.frame();
-    for (std::size_t sample = 0; sample < region_.samples(); ++sample) {
+    for (std::size_t sample = 0; sample < region_.shared_.samples(); ++sample) {
         auto add = [&, first = sample * region_.rect().area()](FragmentBatch& batch) {
             for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++coverage[first + batch.pixel[i]];
         };
         region_.source_.rasterizer().draw(frame.transparent->of_sample(sample),
-                                          region_.source_.triangles_of(*frame.transparent, sample),
-                                          frame.key_request(), nothing, rasterizer::BatchSink{add});
+                                          region_.source_.triangles_of(*frame.transparent, sample), frame.key_request(),
+                                          nothing, rasterizer::BatchSink{add});
     }
 }
 
@@ -135,7 +135,7 @@ void RegionShortcuts::write_image(Target target, std::size_t sample, Image& fram
     const rasterizer::Rect own = region_.rect();
     for (int y = 0; y < own.height(); ++y)
         region_.targets_.read_row(target, y, &frame.codes[frame.index(own.x0 - whole.x0, own.y0 - whole.y0 + y)],
-                                 sample);
+                                  sample);
     finish_words();
 }
 

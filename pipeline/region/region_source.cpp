@@ -119,8 +119,8 @@ bool FragmentSource::record(const PreparedDraw& list, const FragmentNeeds& needs
         for (std::size_t sample = 0; sample < shared_.samples(); ++sample) {
             const std::size_t first = fragments.size();
             shared_.statistics.fragments_drawn +=
-                record_rows(fragments, list.of_sample(sample), triangles_of(list, sample),
-                            shared_.frame.key_request(), shared_.rect());
+                record_rows(fragments, list.of_sample(sample), triangles_of(list, sample), shared_.frame.key_request(),
+                            shared_.rect());
             if (sample > 0) fragments.move_pixels(first, static_cast<std::uint32_t>(sample * shared_.pixels()));
         }
         fragments.finish();
@@ -218,8 +218,8 @@ void FragmentSource::for_each_batch(const PreparedDraw& list, const PassState& s
 
 bool FragmentSource::record_sorted(const FragmentNeeds& needs) {
     const PreparedDraw& list = *shared_.frame.transparent;
-    return may_record(list) && !shared_.frame.loads_others() && targets_.has_ordered_surface() &&
-           record(list, needs) && sort_for({});
+    return may_record(list) && !shared_.frame.loads_others() && targets_.has_ordered_surface() && record(list, needs) &&
+           sort_for({});
 }
 
 }  // namespace strata::pipeline

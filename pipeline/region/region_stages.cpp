@@ -20,9 +20,9 @@
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shared.h"
 #include "pipeline/region/region_targets.h"
-#include "pipeline/region/stage_lanes.h"
 #include "pipeline/stages/alpha_test.h"
 #include "pipeline/stages/blend.h"
+#include "pipeline/stages/stage_lanes.h"
 #include "pipeline/textures/shadow_stage.h"
 #include "pipeline/textures/texture_sample.h"
 
@@ -93,8 +93,7 @@ void Stages::begin_pass(const PassState& state, PassKind kind) {
     shared_.count_pass({.full_screen = 1});
     for (std::size_t k = 0; k < state.color.size();
          ++k)  // a quad's traffic includes every pixel, whatever its program discards
-        if (state.color[k].exists())
-            count_color_bytes(state.blend[k], targets_.at(state.color[k]), shared_.elements());
+        if (state.color[k].exists()) count_color_bytes(state.blend[k], targets_.at(state.color[k]), shared_.elements());
 }
 
 void Stages::count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels) {
@@ -223,7 +222,8 @@ void Stages::load_resolved(TargetStorage& from, std::size_t read, const Fragment
         Lanes<std::uint32_t> code;
         for (std::size_t s = 0; s < shared_.samples(); ++s) {
             const Lanes<std::uint32_t> elements = elements_of(batch, s);
-            gather_codes(codes_in(from.depth_plane(0)), {elements.data(), static_cast<std::size_t>(batch.count)}, &code);
+            gather_codes(codes_in(from.depth_plane(0)), {elements.data(), static_cast<std::size_t>(batch.count)},
+                         &code);
             for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
                 nearest[i] = std::min(nearest[i], code[i]);
         }
@@ -314,7 +314,8 @@ void Stages::record_trace(const FragmentBatch& batch, const Outputs& out, const 
 
 void Stages::open_cache(const PassState& state) {
     if (shared_.profile().blend_storage == BlendStorage::target) return;
-    if (cache_ == nullptr) cache_ = std::make_unique<TileCache>(shared_.rect(), shared_.frame.rect(), shared_.samples());
+    if (cache_ == nullptr)
+        cache_ = std::make_unique<TileCache>(shared_.rect(), shared_.frame.rect(), shared_.samples());
     for (std::size_t k = 0; k < state.color.size(); ++k) {
         if (!state.color[k].exists()) continue;
         const TargetStorage& target = targets_.at(state.color[k]);

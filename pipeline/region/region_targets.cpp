@@ -60,20 +60,22 @@ bool holds_half(Word word, Word greatest) noexcept {
 }
 
 struct FoundPixels {
-    std::uint64_t pixels = 0;
-    std::uint32_t first = 0;
+    std::uint64_t elements = 0;
+    std::uint32_t first_pixel = ~0u;
 };
 
-FoundPixels pixels_where(const TargetStorage& storage, const auto& holds) {
+FoundPixels pixels_where(const TargetStorage& storage, const RegionShared& shared, const auto& holds) {
     FoundPixels found;
-    for (std::uint32_t pixel = 0; pixel < storage.pixels(); ++pixel) {
+    for (std::uint32_t element = 0; element < storage.pixels(); ++element) {
         bool is_found = false;
         for (int sample = 0; sample < storage.samples(); ++sample) {
             const Texels texels = storage.texels(sample);
             for (std::size_t word = 0; word < texels.words(); ++word)
-                is_found |= holds(texels.plane(word).words[pixel]);
+                is_found |= holds(texels.plane(word).words[element]);
         }
-        if (is_found && found.pixels++ == 0) found.first = pixel;
+        if (!is_found) continue;
+        ++found.elements;
+        found.first_pixel = std::min(found.first_pixel, shared.pixel_of(element));
     }
     return found;
 }
@@ -161,8 +163,8 @@ void Targets::copy_rectangle(Target from, const rasterizer::Rect& from_rect, Tar
     for (std::size_t sample = 0; sample < shared_.samples(); ++sample)
         for (int y = written.y0; y < written.y1; ++y)
             copy_row(source, written, y, dx, dy, static_cast<std::uint32_t>(sample * shared_.pixels()), texture);
-    shared_.count(of_copy(static_cast<std::uint64_t>(info(source.format()).bytes_per_pixel),
-                          written.area() * shared_.samples()));
+    shared_.count(
+        of_copy(static_cast<std::uint64_t>(info(source.format()).bytes_per_pixel), written.area() * shared_.samples()));
     shared_.count_pass({.copies = 1});
     shared_.show({.step = Step::copy, .to = to, .from = from});
 }
@@ -270,8 +272,7 @@ bool Targets::has_ordered_surface() const {
     const auto is_beyond = [format = depth_format(surface.format())](std::uint32_t code) {
         return rasterizer::is_beyond_range(code, format);
     };
-    return !shared_.wraps_depths() ||
-           std::none_of(surface.depth(0), surface.depth(0) + shared_.elements(), is_beyond);
+    return !shared_.wraps_depths() || std::none_of(surface.depth(0), surface.depth(0) + shared_.elements(), is_beyond);
 }
 
 void Targets::require_equal(const std::vector<TargetStorage>& others) const {
@@ -299,8 +300,8 @@ void Targets::report_overflow(Target published) const {
                                  : id == published.id  ? "result"
                                                        : std::to_string(id);
         const auto report = [&](Fault fault, const std::string& what, const auto& holds) {
-            const FoundPixels found = pixels_where(storage, holds);
-            shared_.report(fault, found.pixels, found.first, "target " + name + what);
+            const FoundPixels found = pixels_where(storage, shared_, holds);
+            shared_.report(fault, found.elements, found.first_pixel, "target " + name + what);
         };
         if (type == ChannelType::single || rounding != HalfRounding::no_infinity)
             report(Fault::non_finite_target, " holds infinity or NaN",

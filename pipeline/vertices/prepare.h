@@ -57,9 +57,10 @@ struct DrawPart {
 };
 
 // A draw list prepared for passes, once per frame. It points into the draw list, which must outlive it. Every sample of
-// a pixel has a set-up of its own: the same primitives with corners shifted by the sample's position, in the same tiles.
+// a pixel has a set-up of its own: the same primitives with corners shifted by the sample's position, in the same
+// tiles.
 struct PreparedDraw {
-    rasterizer::Geometry geometry;                     // of sample 0
+    rasterizer::Geometry geometry;                      // of sample 0
     std::vector<rasterizer::Geometry> other_samples{};  // of samples 1, 2, ...
     // In submission order, without gaps; empty unless `order` returned some.
     std::vector<DrawPart> parts;
@@ -80,7 +81,8 @@ struct PreparedDraw {
 // Sorts the triangles of every sample into tiles (rasterizer/set_up/geometry.h).
 void bin_triangles(PreparedDraw& list, int tile_size, int threads);
 
-// The needs of the materials of some triangles of a sample. Those of one tile may be fewer than those of the whole list.
+// The needs of the materials of some triangles of a sample. Those of one tile may be fewer than those of the whole
+// list.
 [[nodiscard]] MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles,
                                      std::size_t sample = 0);
 

@@ -74,6 +74,8 @@ const std::vector<std::function<void(FrameCase&)>>& simplifications() {
         [](FrameCase& f) { f.options.raster.sample_coverage = {}; },
         [](FrameCase& f) { f.options.raster.interpolation = plain.raster.interpolation; },
         [](FrameCase& f) { leave_samples(f.options.raster); },
+        [](FrameCase& f) { f.options.sampling = {}; },
+        [](FrameCase& f) { f.options.sampling.loads = f.options.sampling.composites = {}; },
         [](FrameCase& f) { f.options.raster.polygon_offset = {}; },
         [](FrameCase& f) { f.options.raster.clip_plane_count = 0; },
         [](FrameCase& f) { f.options.raster.cull = plain.raster.cull; },
@@ -117,7 +119,8 @@ const std::vector<std::function<void(FrameCase&)>>& simplifications() {
                            }); },
         [](FrameCase& f) {
             f.profile = *pipeline::find_profile(f.profile.name);
-            if (f.profile.raster.coverage == rasterizer::CoverageRule::float_spans) leave_samples(f.options.raster);
+            if (f.profile.raster.coverage == rasterizer::CoverageRule::float_spans)
+                leave_samples(f.options.raster), f.options.sampling = {};
         },
         [](FrameCase& f) { f.profile = *pipeline::find_profile("ideal"); },
         [](FrameCase& f) {

@@ -202,6 +202,19 @@ void choose_sample(ByteSource& bytes, const DeviceProfile& profile, rasterizer::
     set_sample(state, profile.sample_positions, samples, static_cast<std::size_t>(bytes.below(samples)));
 }
 
+// Frames of several samples, of which programs load any. Without bytes, of one.
+void choose_sampling(ByteSource& bytes, const DeviceProfile& profile, peeling::RenderOptions& options) {
+    using pipeline::LoadedSample;
+    constexpr std::array loads{LoadedSample::own, LoadedSample::own, LoadedSample::zero, LoadedSample::resolved};
+    const int samples = std::array{1, 1, 2, 4, 8}[static_cast<std::size_t>(bytes.below(5))];
+    if (samples == 1 || pipeline::sample_points(profile.sample_positions, samples).empty()) return;
+    options.sampling.samples = samples;
+    options.keep_samples = true;
+    options.sampling.loads = bytes.pick(loads);
+    options.sampling.composites = bytes.pick(loads);
+    options.raster.sample.reset();
+}
+
 std::vector<ExecutionWay> ways(ByteSource& bytes) {
     std::vector<ExecutionWay> all{way(bytes, literal, Simd::best), way(bytes, rasterizing, Simd::best),
                                   way(bytes, replaying, Simd::best)};
@@ -235,6 +248,8 @@ FrameCase make_case(std::span<const std::uint8_t> data) {
     choose_of_algorithms(bytes, frame.options.algorithm);
     if (frame.profile.raster.coverage == rasterizer::CoverageRule::snapped_edges)
         choose_sample(bytes, frame.profile, frame.options.raster);
+    if (frame.profile.raster.coverage == rasterizer::CoverageRule::snapped_edges)
+        choose_sampling(bytes, frame.profile, frame.options);
     return frame;
 }
 

@@ -53,6 +53,9 @@ void print_options(std::ostream& out, const peeling::RenderOptions& o) {
             << '}';
     if (r.sample) out << ", sample {" << r.sample->x << ", " << r.sample->y << '}';
     out << ", interpolation " << number(r.interpolation) << ", sample " << r.sample_number << " of " << r.sample_count;
+    const peeling::Multisampling& sampling = o.sampling;
+    out << ", samples " << sampling.samples << ", loads " << number(sampling.loads) << ", composites "
+        << number(sampling.composites);
     const rasterizer::SampleCoverage& coverage = r.sample_coverage;
     out << ", coverage by alpha " << coverage.by_alpha << ", share " << coverage.value.value_or(1) << " inverted "
         << coverage.is_inverted << ", mask " << int{coverage.mask};

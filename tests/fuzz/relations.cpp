@@ -8,8 +8,10 @@
 #include <string_view>
 #include <utility>
 
+#include "peeling/algorithms/algorithm.h"
 #include "peeling/registry.h"
 #include "peeling/render.h"
+#include "pipeline/device/sample_points.h"
 #include "tests/fuzz/differential.h"
 #include "tests/fuzz/frame_case.h"
 #include "tests/support/difference.h"
@@ -248,12 +250,29 @@ void forgive(peeling::RenderResult& found, const peeling::RenderResult& expected
     found.frame.iterations = expected.frame.iterations;
 }
 
+// Nodes of the frame, queries that choose a branch and ratios are of all samples.
+bool has_samples_of_their_own(const FrameCase& frame) {
+    const peeling::RenderOptions& o = frame.options;
+    if (o.sampling.samples == 1 || o.sampling.loads_others() || frame.algorithm == "depth_pass") return false;
+    const peeling::Algorithm& algorithm = *peeling::find_algorithm(frame.algorithm);
+    return !algorithm.whole_frame && !algorithm.shares_nodes && !algorithm.compares_own_codes &&
+           o.termination.rule != pipeline::TerminationRule::ratio;
+}
+
+FrameCase of_sample(const FrameCase& frame, std::size_t sample) {
+    FrameCase own = frame;
+    own.options.sampling = {};
+    set_sample(own.options.raster, frame.profile.sample_positions, frame.options.sampling.samples, sample);
+    return own;
+}
+
 }  // namespace
 
 bool check_relations(std::span<const std::uint8_t> bytes, RelationCounts& held, std::ostream& out) {
     FrameCase frame = make_case(bytes);
     frame.profile = *pipeline::find_profile(frame.profile.name);  // rules of other devices have their own relations
-    if (frame.profile.raster.coverage == rasterizer::CoverageRule::float_spans) leave_samples(frame.options.raster);
+    if (frame.profile.raster.coverage == rasterizer::CoverageRule::float_spans)
+        leave_samples(frame.options.raster), frame.options.sampling = {};
     const peeling::RenderResult expected = run(frame, frame.ways.front());
     for (const Relation& relation : relations) {
         if (expected.outcome == peeling::Outcome::refused && relation.stays == Stays::picture) continue;
@@ -273,6 +292,15 @@ bool check_relations(std::span<const std::uint8_t> bytes, RelationCounts& held, 
         print(out, frame);
         return false;
     }
+    if (!has_samples_of_their_own(frame) || expected.outcome == peeling::Outcome::refused) return true;
+    for (std::size_t sample = 0; sample < expected.frame.samples.size(); ++sample) {
+        const peeling::RenderResult own = run(of_sample(frame, sample), frame.ways.back());
+        if (own.frame.color == expected.frame.samples[sample]) continue;
+        out << "sample " << sample << " of a frame is not the frame of that sample alone:\n";
+        print(out, frame);
+        return false;
+    }
+    ++held["samples alone"];
     return true;
 }
 

@@ -4,7 +4,8 @@
 //          textures, moving the viewport by whole tiles, and adding state without effect (a white texel, an offset of
 //          0, a scissor as large as the viewport, all effects) change no result. Triangles without an area change only
 //          counters and diagnostics. Where no two fragments of a pixel have equal depths, the order of triangles does
-//          not change the pictures of algorithms that sort by depth.
+//          not change the pictures of algorithms that sort by depth. Where programs load their own sample, every sample
+//          of a frame has the picture of a frame of that sample alone.
 #pragma once
 #include <cstdint>
 #include <iosfwd>

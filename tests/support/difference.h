@@ -14,6 +14,7 @@ namespace strata::testing {
     };
     if (a.outcome != b.outcome || a.refusal != b.refusal) return "outcome";
     if (a.frame.color != b.frame.color) return "colour";
+    if (a.frame.samples != b.frame.samples) return "samples";
     if (a.frame.depth != b.frame.depth) return "depth";
     if (a.frame.iterations != b.frame.iterations) return "iterations";
     if (a.frame.passes != b.frame.passes) return "passes";

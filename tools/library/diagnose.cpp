@@ -49,11 +49,10 @@ Diagnosed diagnose(const Scene& scene, const Picture& candidate, const Algorithm
     of_candidate.width = candidate.targets[0].width;
     of_candidate.height = candidate.targets[0].height;
     const View view = scene.view(of_candidate.width, of_candidate.height, of_candidate.raster);
-    auto found =
-        oracle::diagnose_picture({.input = {scene.list(), view, profile, of_candidate, scene.space()},
-                                  .algorithm = algorithm,
-                                  .candidate = candidate,
-                                  .tolerances = tolerances});
+    auto found = oracle::diagnose_picture({.input = {scene.list(), view, profile, of_candidate, scene.space()},
+                                           .algorithm = algorithm,
+                                           .candidate = candidate,
+                                           .tolerances = tolerances});
     return {std::move(found.found), std::move(found.comparison), std::move(found.options)};
 }
 

@@ -2,8 +2,7 @@
 #pragma once
 #include "pipeline/device/profile_fields.h"
 #include "pipeline/formats/resolve.h"
-#include "pipeline/frame/frame.h"
-#include "pipeline/frame/frame.h"
+#include "pipeline/frame/run_settings.h"
 #include "pipeline/vertices/draw_list.h"
 #include "rasterizer/base/simd.h"
 #include "tools/request/words.h"

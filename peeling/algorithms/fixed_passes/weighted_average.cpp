@@ -42,6 +42,7 @@ StuckPixels resolve(Region& region, const PassState& state) {
     const bool half_count = region.storage(state.reads[1]).format() == Format::r16f;
     const float least = least_overflow(region, state.reads[0]);
     StuckPixels stuck;
+    const auto area = static_cast<std::uint32_t>(region.rect().area());
     static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         const ColorLanes& sum = loads.color(0);
         const Lanes<float>& n = loads.color(1)[0];
@@ -50,7 +51,7 @@ StuckPixels resolve(Region& region, const PassState& state) {
             const bool is_sum_whole = sum[0][i] < least && sum[1][i] < least && sum[2][i] < least && sum[3][i] < least;
             if (!(half_count && n[i] >= 2048.0f) && is_sum_whole) continue;
             ++stuck.pixels;
-            stuck.first = std::min(stuck.first, in.pixel[i]);
+            stuck.first = std::min(stuck.first, in.pixel[i] % area);
         }
     }));
     return stuck;

@@ -10,9 +10,9 @@ namespace {
 
 using namespace strata::testing;
 using strata::peeling::find_algorithm;
+using strata::peeling::Renderer;
 using strata::peeling::RenderOptions;
 using strata::peeling::RenderResult;
-using strata::peeling::Renderer;
 using strata::pipeline::find_profile;
 using strata::pipeline::Image;
 using strata::rasterizer::SampleCoverage;

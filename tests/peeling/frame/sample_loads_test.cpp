@@ -22,7 +22,6 @@ using strata::peeling::RegionTrace;
 using strata::peeling::Renderer;
 using strata::peeling::RenderOptions;
 using strata::peeling::RenderResult;
-using strata::peeling::Renderer;
 using strata::pipeline::find_profile;
 using strata::pipeline::Image;
 using strata::pipeline::LoadedSample;

@@ -1,12 +1,11 @@
 // Tests sampled frames against each sample's frame drawn separately and the mean of the codes in integers.
-#include "peeling/render.h"
-
 #include <array>
 #include <catch2/catch.hpp>
 
+#include "peeling/render.h"
 #include "pipeline/device/sample_points.h"
-#include "pipeline/frame/observer.h"
 #include "pipeline/frame/instruments.h"
+#include "pipeline/frame/observer.h"
 #include "rasterizer/base/input_error.h"
 #include "tests/peeling/rendering.h"
 #include "tests/support/random_triangles.h"
@@ -16,9 +15,9 @@ namespace {
 using namespace strata::testing;
 using strata::peeling::find_algorithm;
 using strata::peeling::Outcome;
+using strata::peeling::Renderer;
 using strata::peeling::RenderOptions;
 using strata::peeling::RenderResult;
-using strata::peeling::Renderer;
 using strata::pipeline::find_profile;
 using strata::pipeline::Image;
 using strata::rasterizer::Interpolation;

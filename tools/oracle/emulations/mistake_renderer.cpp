@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "peeling/sample_hazard.h"
 #include "peeling/render.h"
+#include "peeling/sample_hazard.h"
 #include "pipeline/device/check.h"
 #include "tools/oracle/emulations/catalogue.h"
 
@@ -53,10 +53,7 @@ MistakeRenderer::MistakeRenderer(const RunInput& input, const peeling::Algorithm
 }
 
 AlteredRun MistakeRenderer::altered_run() const {
-    AlteredRun e{.list = &input_.list,
-                 .view = input_.view,
-                 .profile = input_.profile,
-                 .options = input_.options};
+    AlteredRun e{.list = &input_.list, .view = input_.view, .profile = input_.profile, .options = input_.options};
     e.algorithm = &algorithm_;
     e.right = right_run_;
     e.options.audit = e.options.keep_layers = false;

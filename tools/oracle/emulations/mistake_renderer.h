@@ -30,7 +30,9 @@ class MistakeRenderer {
     [[nodiscard]] const Picture& right() const noexcept { return right_; }
     [[nodiscard]] const RightRun& right_run() const noexcept { return right_run_; }
     [[nodiscard]] pipeline::ColorSpace space() const noexcept { return input_.space; }
-    [[nodiscard]] std::size_t samples() const noexcept { return static_cast<std::size_t>(input_.options.sampling.samples); }
+    [[nodiscard]] std::size_t samples() const noexcept {
+        return static_cast<std::size_t>(input_.options.sampling.samples);
+    }
     // The pixels whose samples have different fragments, row by row; empty if a pixel has one sample.
     [[nodiscard]] std::vector<bool> edges() const;
 

@@ -16,7 +16,8 @@ using rasterizer::Interpolation;
 
 // Programs that load another sample than their own.
 bool loads(AlteredRun& e, LoadedSample in_peels, LoadedSample in_composites) {
-    if (e.options.sampling.samples == 1 || (e.options.sampling.loads == in_peels && e.options.sampling.composites == in_composites))
+    if (e.options.sampling.samples == 1 ||
+        (e.options.sampling.loads == in_peels && e.options.sampling.composites == in_composites))
         return false;
     e.options.sampling.loads = in_peels;
     e.options.sampling.composites = in_composites;
@@ -82,7 +83,8 @@ const Mistake sample_mistakes[] = {
      ChangedPart::samples, [](AlteredRun& e) { return loads(e, LoadedSample::zero, e.options.sampling.composites); }},
     {"peel_loads_resolved",
      "all samples are compared with the resolved depth of the previous layer: fragments are doubled on slopes",
-     ChangedPart::samples, [](AlteredRun& e) { return loads(e, LoadedSample::resolved, e.options.sampling.composites); }},
+     ChangedPart::samples,
+     [](AlteredRun& e) { return loads(e, LoadedSample::resolved, e.options.sampling.composites); }},
     {"alpha_to_coverage_on", "alpha to coverage left on: alpha is applied twice", ChangedPart::samples,
      covers_by_alpha},
     {"alpha_to_coverage_on_nearest",

@@ -372,7 +372,8 @@ SampledHistory explain_samples(const RunInput& input, const peeling::Algorithm& 
         RunInput single = input;
         single.options.sampling = {};
         if (input.options.sampling.samples > 1)
-            pipeline::set_sample(single.options.raster, input.profile.sample_positions, input.options.sampling.samples, sample);
+            pipeline::set_sample(single.options.raster, input.profile.sample_positions, input.options.sampling.samples,
+                                 sample);
         result.points.push_back(single.options.raster.sample.value_or(rasterizer::SamplePoint{}));
         result.samples.push_back(std::move(*recordings[sample]).finish(single, algorithm, in_memory).at(0));
         result.samples.back().sample = static_cast<int>(sample);

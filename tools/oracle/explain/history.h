@@ -103,8 +103,8 @@ struct History {
 [[nodiscard]] std::vector<History> explain(const RunInput& input, const peeling::Algorithm& algorithm,
                                            const rasterizer::Rect& pixels);
 
-// The histories of a pixel's samples, whose frames advance together: counts of queries are of all samples. What a line
-// reads is what its own sample stores, whichever sample the program loads (Multisampling::loads).
+// The histories of a pixel's samples: counts of queries are of all samples. What a line reads is what its own sample
+// stores, whichever sample the program loads (Multisampling::loads).
 struct SampledHistory {
     std::vector<History> samples{};
     std::vector<rasterizer::SamplePoint> points{};

@@ -65,9 +65,9 @@ struct Rows {
 
 class SceneFragments {
   public:
-    // Renders the scene at one sample, whose point RasterState::sample says. `bytes` limits the kept fragments. Only tiles that intersect `rows` are rendered and kept: the
-    // other ones look blank. Throws Refused and InputError like a renderer. Objects that `input` refers to must outlive
-    // this.
+    // Renders the scene at one sample, whose point RasterState::sample says. `bytes` limits the kept fragments. Only
+    // tiles that intersect `rows` are rendered and kept: the other ones look blank. Throws Refused and InputError like
+    // a renderer. Objects that `input` refers to must outlive this.
     SceneFragments(const RunInput& input, std::uint64_t bytes, const Rows& rows = {});
 
     [[nodiscard]] int width() const noexcept { return input_.options.width; }

@@ -70,7 +70,8 @@ bool is_better(const ResolvedVerdict& a, const ResolvedVerdict& b) {
 std::optional<ResolvedVerdict> right_samples_by(const OtherRules& rules, const RunInput& input,
                                                 const verdict::Colors& candidate,
                                                 const std::vector<std::uint32_t>& wrong) {
-    if (pipeline::sample_points(rules.profile.sample_positions, input.options.sampling.samples).empty()) return std::nullopt;
+    if (pipeline::sample_points(rules.profile.sample_positions, input.options.sampling.samples).empty())
+        return std::nullopt;
     try {
         const rasterizer::Rect part = verdict::most_wrong(wrong, candidate.width());
         if (!right_resolved(samples_of(input, rules, part), candidate, wrong, part)) return std::nullopt;

@@ -108,8 +108,7 @@ void derive(const Golden& golden, const scenes::PackFiles::Sink& sink,
     manifest["scene"] = scenes::scene_json(golden.scene, golden.color_space, files);
     manifest["view"] = scenes::view_json(*golden.scene.own_view);
     manifest["state"] = state_json(golden.options, golden.profile);
-    manifest["draws"] =
-        draws_json({golden.scene.list, *golden.scene.own_view, golden.profile, golden.options}, files);
+    manifest["draws"] = draws_json({golden.scene.list, *golden.scene.own_view, golden.profile, golden.options}, files);
     manifest["results"] = ordered_json::array();
     for (std::size_t i = 0; i < golden.algorithms.size(); ++i) {
         manifest["results"].push_back(result_json(golden, *golden.algorithms[i], files));

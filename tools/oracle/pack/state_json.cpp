@@ -131,9 +131,9 @@ void take_all_samples(const SampledState& given, const std::string& file, const 
                          "the 2, 4 or 8 sample positions of profile " + profile.name,
                          std::to_string(given.points.size()) + " other positions");
     options.sampling = {.samples = static_cast<int>(points.size()),
-                      .resolve = given.all->resolve,
-                      .loads = given.all->loads,
-                      .composites = given.all->composites};
+                        .resolve = given.all->resolve,
+                        .loads = given.all->loads,
+                        .composites = given.all->composites};
 }
 
 // The samples' number is limited by the array; Renderer checks the rest.

@@ -94,10 +94,10 @@ class PassCollector {
         complete(event, kind);
     }
 
-    // The image of all samples. A target that has samples of its own, as the stencil-routed k-buffer's, is of a frame of
-    // one sample.
+    // The image of all samples. A target that has samples of its own, as the stencil-routed k-buffer's, is of a frame
+    // of one sample.
     [[nodiscard]] pipeline::Image image_of(const Region& region, pipeline::Target target) const {
-        const std::size_t samples = region.samples();
+        const auto samples = static_cast<std::size_t>(region.frame().samples());
         if (samples == 1) return shown_image(region, target, 0);
         pipeline::Image whole;
         for (std::size_t sample = 0; sample < samples; ++sample) {

@@ -55,7 +55,9 @@ class Lister {
 
   private:
     // Programs that load other samples than their own have one shading.
-    [[nodiscard]] bool has_shadings() const { return given_.options.sampling.samples > 1 && !given_.options.sampling.loads_others(); }
+    [[nodiscard]] bool has_shadings() const {
+        return given_.options.sampling.samples > 1 && !given_.options.sampling.loads_others();
+    }
     [[nodiscard]] Origin other_origin() const {
         return given_.profile.origin == Origin::lower_left ? Origin::upper_left : Origin::lower_left;
     }

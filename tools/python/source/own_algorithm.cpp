@@ -90,7 +90,7 @@ void run(Region& region, const py::function& body, std::exception_ptr& failed) {
         const py::gil_scoped_acquire lock;
         try {
             const auto area = static_cast<std::uint32_t>(region.rect().area());
-            for (std::uint32_t sample = 0; sample < region.samples(); ++sample) {
+            for (std::uint32_t sample = 0; sample * area < region.elements(); ++sample) {
                 const Colors colors = called(region, body, sample, fragments);
                 const float* c = colors.data();
                 for (std::uint32_t pixel = 0; pixel < area; ++pixel, c += 4)

@@ -74,8 +74,7 @@ void bind_layers(py::module_& module) {
     module.def("_layers", [](const Scene& scene, const std::string& algorithm, const std::string& profile,
                              const py::kwargs& keywords) {
         const Asked asked{algorithm, profile, keywords};
-        const auto found =
-            unlocked([&] { return layers(scene, asked.algorithm, asked.profile, asked.options); });
+        const auto found = unlocked([&] { return layers(scene, asked.algorithm, asked.profile, asked.options); });
         py::list all;
         for (const Layer& layer : *found)
             all.append(
@@ -85,8 +84,7 @@ void bind_layers(py::module_& module) {
     module.def("_passes", [](const Scene& scene, const std::string& algorithm, const std::string& profile,
                              const py::kwargs& keywords) {
         const Asked asked{algorithm, profile, keywords};
-        const auto found =
-            unlocked([&] { return passes(scene, asked.algorithm, asked.profile, asked.options); });
+        const auto found = unlocked([&] { return passes(scene, asked.algorithm, asked.profile, asked.options); });
         py::list all;
         for (const oracle::PassReport& pass : *found) {
             py::dict targets, one;
@@ -112,7 +110,8 @@ void bind_layers(py::module_& module) {
 // Fragments and histories are of one sample.
 void expect_one_sample(const Asked& asked) {
     if (asked.options.sampling.samples != 1)
-        throw InputError("options", "samples", "1 for fragments and histories", std::to_string(asked.options.sampling.samples));
+        throw InputError("options", "samples", "1 for fragments and histories",
+                         std::to_string(asked.options.sampling.samples));
 }
 
 void bind_fragments(py::module_& module) {

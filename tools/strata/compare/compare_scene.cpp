@@ -260,8 +260,7 @@ std::vector<std::string> forgotten(const SceneQuestion& question, const oracle::
 // The verdict on a picture with several samples per pixel.
 int compare_resolved(const SceneQuestion& question, const Session& session, const oracle::Picture& candidate) {
     const oracle::TargetImage& colors = colors_of(candidate);
-    const oracle::RunInput input{session.scene.list,        session.view,
-                                 session.profile,           question.run.render,
+    const oracle::RunInput input{session.scene.list, session.view, session.profile, question.run.render,
                                  question.run.scene_options.color_space};
     const oracle::SamplesVerdict verdict = [&] {
         Progress bar("verdict");
@@ -307,8 +306,8 @@ std::string if_linear(SceneQuestion question, const oracle::verdict::Verdict& fo
         return "";
     question.run.scene_options.color_space = pipeline::ColorSpace::linear;
     const Session session = open_at_size(question, colors, candidate.file);
-    const oracle::RunInput input{session.scene.list,  session.view, session.profile,
-                                 question.run.render, pipeline::ColorSpace::linear};
+    const oracle::RunInput input{session.scene.list, session.view, session.profile, question.run.render,
+                                 pipeline::ColorSpace::linear};
     return judged(question, input, colors).is_right() ? "  with --color-space linear the picture is right\n" : "";
 }
 
@@ -319,8 +318,8 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
     const Session session = open_at_size(question, colors, candidate.file);
     if (question.run.sampling.samples > 1) return compare_resolved(question, session, candidate);
     const pipeline::DrawList& list = session.scene.list;
-    const oracle::RunInput input{
-        list, session.view, session.profile, question.run.render, question.run.scene_options.color_space};
+    const oracle::RunInput input{list, session.view, session.profile, question.run.render,
+                                 question.run.scene_options.color_space};
     oracle::verdict::PictureVerdict verdict = judged(question, input, colors);
     verdict.reading += if_linear(question, verdict.found, candidate);
     verdict.found.distinguishing_command = distinguishing_command(verdict.found);

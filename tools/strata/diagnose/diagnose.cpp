@@ -93,8 +93,7 @@ struct OpenCase {
     }
     [[nodiscard]] const peeling::Algorithm& algorithm() const { return *options.run.algorithms[0]; }
     [[nodiscard]] oracle::RunInput input() const {
-        return {session.scene.list,       session.view,
-                session.profile,          options.run.render,
+        return {session.scene.list, session.view, session.profile, options.run.render,
                 options.run.scene_options.color_space};
     }
     [[nodiscard]] oracle::Comparison comparison() const {

@@ -7,7 +7,6 @@
 
 #include "peeling/registry.h"
 #include "peeling/render.h"
-#include "peeling/render.h"
 #include "pipeline/device/sample_points.h"
 #include "pipeline/formats/resolve.h"
 #include "scenes/camera.h"

@@ -31,8 +31,7 @@ TEST_CASE("the histories of a pixel's samples are those of their own frames and 
             input.options.sampling.samples = samples;
             const peeling::Algorithm& algorithm = *peeling::find_algorithm(name);
             const peeling::RenderResult usual =
-                peeling::Renderer{input.list, input.view, input.profile, input.options}.render(
-                    algorithm);
+                peeling::Renderer{input.list, input.view, input.profile, input.options}.render(algorithm);
             int fragments = 0, differing = 0;
             for (int x = 0, y = 6; x < 16; x += 2) {
                 const SampledHistory history = explain_samples(input, algorithm, x, y);

@@ -54,9 +54,8 @@ TEST_CASE("a pack of all samples has their passes and the resolved picture and i
     if (set == 3) golden.options.raster.sample_coverage = {.by_alpha = true, .value = 0.75f, .mask = 13};
     const peeling::Algorithm& algorithm = *golden.algorithms[0];
     golden.options.keep_layers = true;
-    const peeling::RenderResult usual = peeling::Renderer{golden.scene.list, *golden.scene.own_view,
-                                                                 golden.profile, golden.options}
-                                            .render(algorithm);
+    const peeling::RenderResult usual =
+        peeling::Renderer{golden.scene.list, *golden.scene.own_view, golden.profile, golden.options}.render(algorithm);
     golden.options.keep_layers = false;
     const test::OwnFolder folder;
     const std::string pack = folder.path() + "/pack";
@@ -71,10 +70,10 @@ TEST_CASE("a pack of all samples has their passes and the resolved picture and i
         CHECK(image_in(pack, result["layers"][k]["color"], layer.color.format) == layer.color);
     }
     CHECK(result["geometry_passes"] == usual.frame.passes.geometry);
-    for (const json& target : result["passes"][0]["targets"]) CHECK(target["samples"] == golden.options.sampling.samples);
+    for (const json& target : result["passes"][0]["targets"])
+        CHECK(target["samples"] == golden.options.sampling.samples);
     const Golden back = read_pack(pack);
-    CHECK(state_json(back.options, back.profile) ==
-          state_json(golden.options, golden.profile));
+    CHECK(state_json(back.options, back.profile) == state_json(golden.options, golden.profile));
     CHECK(back.options.sampling.samples == golden.options.sampling.samples);
     CHECK(back.options.sampling.loads == golden.options.sampling.loads);
     CHECK(back.options.sampling.composites == golden.options.sampling.composites);

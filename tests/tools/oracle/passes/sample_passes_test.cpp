@@ -198,8 +198,7 @@ TEST_CASE("an error of the one who takes passes ends the frame") {
     const auto take = [&](PassReport&&) {
         if (++taken == 2) throw std::runtime_error("the disk is full");
     };
-    CHECK_THROWS_WITH(
-        passes({l.scene.list, l.view, l.profile, l.options}, *peeling::find_algorithm("dual"), take),
-        "the disk is full");
+    CHECK_THROWS_WITH(passes({l.scene.list, l.view, l.profile, l.options}, *peeling::find_algorithm("dual"), take),
+                      "the disk is full");
     CHECK(taken == 2);
 }

@@ -1,4 +1,4 @@
-// pipeline/region/stage_lanes.h - builds the argument structs of the stage kernels from a batch's lanes and a target's
+// pipeline/stages/stage_lanes.h - builds the argument structs of the stage kernels from a batch's lanes and a target's
 // planes.
 #pragma once
 #include <cstdint>
