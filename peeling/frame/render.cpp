@@ -71,7 +71,7 @@ void add_diagnostics(const Frame& frame, FrameSetup& setup, const Algorithm& alg
                      RenderResult& result) {
     const RenderOptions& options = setup.options;
     std::vector<Diagnostic>& all = result.frame.diagnostics;
-    if (!algorithm.compares_own_codes || may_stall(algorithm, setup.profile, options))
+    if (!algorithm.compares_own_codes || may_stall(algorithm, setup.profile, options) || frame.loads_others())
         note_endless(algorithm, frame, options, result.frame);
     // Triangles are reported by their index in the list as given, which is prepared here if it was not drawn.
     if (frame.transparent->geometry.counters.non_finite > 0)

@@ -51,7 +51,8 @@ void permute_triangles_of(Mesh& mesh, Random& random) {
 
 bool compares_what_it_stores(const peeling::RenderOptions& o) {
     return !o.reference_path && o.compare_epsilon == pipeline::CompareEpsilon{} && o.quantize_reference &&
-           o.vertex_paths == peeling::VertexPaths{};
+           o.vertex_paths == peeling::VertexPaths{} && o.raster.interpolation == rasterizer::Interpolation::sample &&
+           !o.sampling.loads_others();
 }
 
 // True if fragments tie by the stored or by the exact codes.
@@ -59,10 +60,10 @@ bool has_ties(const FrameCase& frame, const peeling::Algorithm& algorithm) {
     peeling::RenderOptions options = frame.options;
     options.keep_layers = false;
     peeling::Renderer renderer{frame.list, frame.view, frame.profile, options};
-    std::set<std::pair<std::uint32_t, std::uint32_t>> codes, exact;
+    std::set<std::array<std::uint32_t, 3>> codes, exact;
     for (const auto& fragment : renderer.fragments(algorithm).all)
-        if (!codes.emplace(fragment.pixel, fragment.code).second ||
-            !exact.emplace(fragment.pixel, fragment.exact_code).second)
+        if (!codes.insert({fragment.sample, fragment.pixel, fragment.code}).second ||
+            !exact.insert({fragment.sample, fragment.pixel, fragment.exact_code}).second)
             return true;
     return false;
 }
@@ -250,13 +251,14 @@ void forgive(peeling::RenderResult& found, const peeling::RenderResult& expected
     found.frame.iterations = expected.frame.iterations;
 }
 
-// Nodes of the frame, queries that choose a branch and ratios are of all samples.
+// Nodes of the frame, queries that choose a branch and ratios are of all samples; a peel that may never end has a limit
+// of passes from the deepest sample.
 bool has_samples_of_their_own(const FrameCase& frame) {
     const peeling::RenderOptions& o = frame.options;
-    if (o.sampling.samples == 1 || o.sampling.loads_others() || frame.algorithm == "depth_pass") return false;
+    if (o.sampling.samples == 1 || frame.algorithm == "depth_pass" || !compares_what_it_stores(o)) return false;
     const peeling::Algorithm& algorithm = *peeling::find_algorithm(frame.algorithm);
-    return !algorithm.whole_frame && !algorithm.shares_nodes && !algorithm.compares_own_codes &&
-           o.termination.rule != pipeline::TerminationRule::ratio;
+    return !algorithm.stores && !algorithm.compares && !algorithm.whole_frame && !algorithm.shares_nodes &&
+           !algorithm.compares_own_codes && o.termination.rule != pipeline::TerminationRule::ratio;
 }
 
 FrameCase of_sample(const FrameCase& frame, std::size_t sample) {
