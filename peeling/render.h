@@ -52,9 +52,8 @@ struct FrameFragments {
     // Sample by sample, each in submission order; `pixel` is row-major in the frame.
     std::vector<pipeline::CapturedFragment> all;
     std::vector<std::uint32_t> opaque;  // per pixel of each sample: the opaque surface's depth in the algorithm's key
-    // Those of one sample.
+    std::size_t samples = 1;            // of a pixel
     [[nodiscard]] FrameFragments of_sample(std::size_t sample) const;
-    std::size_t samples = 1;
     static constexpr std::uint64_t bytes_per_fragment = 64;  // per fragment, including the copy that the file writer
                                                              // makes
 };

@@ -11,7 +11,6 @@
 #include "peeling/audit/peel_errors.h"
 #include "peeling/audit/region_trace.h"
 #include "peeling/invariance.h"
-#include "pipeline/device/sample_points.h"
 
 namespace strata::peeling {
 
@@ -29,24 +28,25 @@ struct HazardInput {
 
     [[nodiscard]] std::size_t samples() const noexcept { return static_cast<std::size_t>(options.sampling.samples); }
 
-    [[nodiscard]] FrameFragments fragments(std::size_t sample, rasterizer::Interpolation interpolation) const {
-        RenderOptions own = options;
-        own.raster.interpolation = interpolation;
-        set_sample(own.raster, profile.sample_positions, options.sampling.samples, sample);
-        own.sampling = {};
-        Renderer renderer{list, view, profile, own};
+    [[nodiscard]] FrameFragments fragments(rasterizer::Interpolation interpolation) const {
+        RenderOptions at = options;
+        at.raster.interpolation = interpolation;
+        Renderer renderer{list, view, profile, at};
         return keyed(renderer.fragments(algorithm), algorithm.key);
     }
 };
 
-// The visible fragments of a sample: layer and key, sorted by pixel.
-std::vector<LayerFragment> layers_of(const HazardInput& input, std::size_t sample) {
-    const FrameFragments truth = input.fragments(sample, rasterizer::Interpolation::sample);
-    const FrameFragments drawn = input.fragments(sample, input.options.raster.interpolation);
-    std::vector<LayerFragment> all;
-    for (const PathPair& pair : pair_up(truth.all, drawn.all).pairs)
-        if (pair.stored < truth.opaque[pair.pixel])
-            all.push_back({pair.pixel, pair.primitive, pair.stored, pair.reference});
+// The visible fragments of each sample: layer and key, sorted by pixel.
+std::vector<std::vector<LayerFragment>> layers_of(const HazardInput& input) {
+    const FrameFragments true_ones = input.fragments(rasterizer::Interpolation::sample);
+    const FrameFragments drawn_ones = input.fragments(input.options.raster.interpolation);
+    std::vector<std::vector<LayerFragment>> all(input.samples());
+    for (std::size_t sample = 0; sample < all.size(); ++sample) {
+        const FrameFragments truth = true_ones.of_sample(sample), drawn = drawn_ones.of_sample(sample);
+        for (const PathPair& pair : pair_up(truth.all, drawn.all).pairs)
+            if (pair.stored < truth.opaque[pair.pixel])
+                all[sample].push_back({pair.pixel, pair.primitive, pair.stored, pair.reference});
+    }
     return all;
 }
 
@@ -170,7 +170,8 @@ std::vector<SampleEdge> sample_edges(const DrawList& list, const View& view, con
     const HazardInput input{list, view, profile, options, algorithm};
     const std::size_t pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
     std::vector<Primitives> primitives;
-    for (std::size_t s = 0; s < input.samples(); ++s) primitives.push_back(primitives_of(layers_of(input, s), pixels));
+    for (const std::vector<LayerFragment>& layers : layers_of(input))
+        primitives.push_back(primitives_of(layers, pixels));
     std::vector<SampleEdge> edges(pixels);
     for (std::size_t p = 0; p < pixels; ++p) edges[p] = edge_of(primitives, p);
     return edges;
@@ -181,8 +182,8 @@ SampleHazard measure_samples(const DrawList& list, const View& view, const Devic
     const HazardInput input{list, view, profile, options, algorithm};
     SampleHazard hazard;
     if (options.sampling.loads_others() && algorithm.traces_own_targets) {
-        hazard.refusal = Refusal{"layer counts for " + algorithm.name + " when it loads another sample", "",
-                                 "use dual_independent, which compares in the same way"};
+        hazard.refusal = Refusal{"layer counts when it loads another sample", "",
+                                 "use dual_independent, which compares in the same way", algorithm.name};
         return hazard;
     }
     Renderer renderer{list, view, profile, options};
@@ -196,10 +197,10 @@ SampleHazard measure_samples(const DrawList& list, const View& view, const Devic
     std::vector<std::vector<bool>> wrong;
     const std::size_t pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
     int limit = 0;
-    for (std::size_t s = 0; s < input.samples(); ++s) {
-        const std::vector<LayerFragment> layers = layers_of(input, s);
-        primitives.push_back(primitives_of(layers, pixels));
-        wrong.push_back(add_sample(hazard, input, layers, without_ties(traces_of(traces, s))));
+    const std::vector<std::vector<LayerFragment>> layers = layers_of(input);
+    for (std::size_t s = 0; s < layers.size(); ++s) {
+        primitives.push_back(primitives_of(layers[s], pixels));
+        wrong.push_back(add_sample(hazard, input, layers[s], without_ties(traces_of(traces, s))));
         for (const auto& pixel : primitives.back()) limit = std::max(limit, 2 * static_cast<int>(pixel.size()) + 2);
     }
     for (std::size_t p = 0; p < pixels; ++p) {

@@ -110,8 +110,8 @@ std::optional<Refusal> check_shading(const DeviceProfile& profile, const Algorit
     if (depth.path == rasterizer::DepthPath::depth_replace)
         return Refusal{"per-pixel shading with replaced depth", "", "use --shading sample"};
     if (algorithm.compares_own_codes)
-        return Refusal{"per-pixel shading in " + algorithm.name + ", which compares its own stored depths", "",
-                       "use --shading sample, or front_to_back, dual, dual_independent or depth_units"};
+        return Refusal{"per-pixel shading, because it compares its own stored depths", "",
+                       "use --shading sample, or front_to_back, dual, dual_independent or depth_units", algorithm.name};
     return std::nullopt;
 }
 

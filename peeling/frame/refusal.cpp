@@ -27,18 +27,17 @@ std::optional<Refusal> check_formats(const Algorithm& algorithm, const FrameSetu
     for (const auto& format : {std::optional(setup.color_format), options.result_format, options.back_format})
         if (auto lacking = format ? check(setup.profile, *format) : std::nullopt) return lacking;
     if (options.back_format && !algorithm.takes_both_ends)
-        return Refusal{"separate back format in " + algorithm.name + ", which composites from one end only", "",
-                       "use dual or dual_independent"};
+        return Refusal{"separate back format, because it composites from one end only", "",
+                       "use dual or dual_independent", algorithm.name};
     return std::nullopt;
 }
 
 std::optional<Refusal> check_results(const Algorithm& algorithm, const FrameSetup& setup) {
     if (setup.options.keep_layers && !algorithm.makes_layers)
-        return Refusal{"saved layers in " + algorithm.name + ", which composites without saving layers", "",
-                       "use dual or front_to_back"};
+        return Refusal{"saved layers", "", "use dual or front_to_back", algorithm.name};
     if (algorithm.compares_own_codes && !setup.is_invariant())
-        return Refusal{"other compared depth in " + algorithm.name, "",
-                       "use depth_units, front_to_back, dual or dual_independent"};
+        return Refusal{"other compared depth", "", "use depth_units, front_to_back, dual or dual_independent",
+                       algorithm.name};
     return std::nullopt;
 }
 
@@ -50,8 +49,8 @@ std::optional<Refusal> check_samples_of(const Algorithm& algorithm, const FrameS
         return Refusal{"Quincunx filter of " + std::to_string(sampling.samples) + " samples",
                        "NV_multisample_filter_hint", "use --profile geforce3 with --samples 2"};
     if (sampling.samples > 1 && algorithm.samples > 1)
-        return Refusal{"multisampling in " + algorithm.name + ", which stores fragments in the samples", "",
-                       "use --samples 1, or k_buffer"};
+        return Refusal{"multisampling, because it stores fragments in the samples", "", "use --samples 1, or k_buffer",
+                       algorithm.name};
     return std::nullopt;
 }
 

@@ -86,7 +86,8 @@ bool shares_terms(const Blend& a, const Blend& b) {
 }  // namespace
 
 std::string Refusal::message(const DeviceProfile& profile) const {
-    std::string text = "profile " + profile.name + " has no " + feature;
+    std::string text =
+        (algorithm.empty() ? "profile " + profile.name : "algorithm " + algorithm) + " has no " + feature;
     if (!extension.empty()) text += " (" + extension + ")";
     if (!way_out.empty()) text += "; " + way_out;
     return text;

@@ -52,9 +52,12 @@ struct Refusal {
     std::string extension;
     // "use geforce8_dx101 or ideal"; empty if there is no alternative.
     std::string way_out;
+    // "dual", if the algorithm is the reason and not the device; it then has the feature on no device.
+    std::string algorithm{};
     friend bool operator==(const Refusal&, const Refusal&) = default;
 
-    // "profile geforce3 has no independent blend equations (ARB_draw_buffers_blend); use geforce8_dx101 or ideal"
+    // "profile geforce3 has no independent blend equations (ARB_draw_buffers_blend); use geforce8_dx101 or ideal", or
+    // "algorithm k_buffer has no saved layers; use dual or front_to_back".
     [[nodiscard]] std::string message(const DeviceProfile& profile) const;
 };
 

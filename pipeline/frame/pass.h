@@ -84,6 +84,7 @@ struct Outputs {
 };
 
 // Called with a batch in which no pixel occurs twice. In full-screen passes only `pixel`, `x`, `y` and `count` are set.
+// With several samples per pixel, `pixel` is an element of the region: sample * rect().area() + pixel.
 template <class P>
 concept FragmentProgram = requires(P& p, const FragmentBatch& in, const Loads& loads, Outputs& out) {
     p(in, loads, out);

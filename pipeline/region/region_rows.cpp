@@ -54,7 +54,7 @@ rasterizer::DepthDrawn FragmentSource::draw_depth_rows(const PassState& state) {
     stages_.begin_pass(state, PassKind::geometry);
     Word* const codes = targets_.at(state.depth_target).depth_plane(0).words;
     rasterizer::DepthDrawn all;
-    for (std::size_t sample = 0; sample < shared_.samples(); ++sample) {
+    for (std::size_t sample = 0; sample < shared_.samples; ++sample) {
         const rasterizer::Geometry& geometry = shared_.frame.transparent->of_sample(sample);
         const rasterizer::DepthDrawn rows =
             rasterizer::draw_depth_rows(geometry, geometry.bin(shared_.area.tile), shared_.frame.key_request(),
@@ -96,7 +96,7 @@ rasterizer::DepthDrawn FragmentSource::draw_sum_rows(const PassState& state) {
     const bool has_count_target = state.color[1].exists();
     const Texels sums = targets_.at(state.color[0]).texels(0);
     rasterizer::DepthDrawn all;
-    for (std::size_t sample = 0; sample < shared_.samples(); ++sample) {
+    for (std::size_t sample = 0; sample < shared_.samples; ++sample) {
         const std::size_t first = sample * shared_.pixels();
         SumPlanes planes{sums.words() == 4 ? SumWords::binary32 : SumWords::halves,
                          {},

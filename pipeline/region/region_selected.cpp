@@ -216,7 +216,7 @@ void FragmentSource::find_positions(FragmentBatch& batch) const {
         batch.y[i] = static_cast<std::uint16_t>(y0 + row);
     };
     const auto count = static_cast<std::size_t>(batch.count);
-    if (shared_.samples() == 1)
+    if (shared_.samples == 1)
         for (std::size_t i = 0; i < count; ++i) set(i, batch.pixel[i]);
     else
         for (std::size_t i = 0; i < count; ++i) set(i, batch.pixel[i] % pixels);

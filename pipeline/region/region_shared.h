@@ -26,15 +26,15 @@ struct RegionShared {
     RegionArea area;
     RegionStatistics& statistics;
     Instruments instruments;
-    RegionScratch& scratch;  // the arrays through which a batch passes
-    Region& region;          // for observers and alterations of its steps
+    RegionScratch& scratch;                                           // the arrays through which a batch passes
+    Region& region;                                                   // for observers and alterations of its steps
+    std::size_t samples = static_cast<std::size_t>(frame.samples());  // of a pixel
 
     [[nodiscard]] const DeviceProfile& profile() const noexcept { return *frame.profile; }
     [[nodiscard]] rasterizer::Rect rect() const noexcept { return area.rect; }
     // Element sample * pixels() + pixel of a target is that sample of a pixel; with one sample, an element is a pixel.
-    [[nodiscard]] std::size_t samples() const noexcept { return samples_; }
     [[nodiscard]] std::size_t pixels() const noexcept { return area.rect.area(); }
-    [[nodiscard]] std::size_t elements() const noexcept { return samples_ * pixels(); }
+    [[nodiscard]] std::size_t elements() const noexcept { return samples * pixels(); }
     // Literal execution: the frame is one region.
     [[nodiscard]] bool is_frame() const noexcept { return area.extent == Extent::frame; }
     // True if depths outside the depth range have codes (rasterizer/reference/depth.md 2.9).
@@ -69,20 +69,6 @@ struct RegionShared {
     [[nodiscard]] std::uint32_t pixel_of(std::uint32_t element) const noexcept {
         return element % static_cast<std::uint32_t>(pixels());
     }
-
-  private:
-    friend class Region;
-    RegionShared(const Frame& of, const RegionArea& a, RegionStatistics& s, const Instruments& i, RegionScratch& memory,
-                 Region& r)
-        : frame{of},
-          area{a},
-          statistics{s},
-          instruments{i},
-          scratch{memory},
-          region{r},
-          samples_{static_cast<std::size_t>(of.samples())} {}
-
-    std::size_t samples_;
 };
 
 }  // namespace strata::pipeline

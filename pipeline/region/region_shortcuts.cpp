@@ -18,7 +18,7 @@ Trace& RegionShortcuts::trace() noexcept { return region_.scratch_->trace; }
 void RegionShortcuts::count_coverage(std::span<std::uint32_t> coverage) {
     constexpr FragmentNeeds nothing{false, false, false, false, false, false};
     const Frame& frame = region_.frame();
-    for (std::size_t sample = 0; sample < region_.shared_.samples(); ++sample) {
+    for (std::size_t sample = 0; sample < region_.shared_.samples; ++sample) {
         auto add = [&, first = sample * region_.rect().area()](FragmentBatch& batch) {
             for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++coverage[first + batch.pixel[i]];
         };

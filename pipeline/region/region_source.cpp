@@ -33,7 +33,7 @@ const MaterialNeeds& FragmentSource::needs_of_tile(const PreparedDraw& list) {
     auto& needs = is_transparent ? transparent_needs_ : opaque_needs_;
     if (!needs) {
         needs = MaterialNeeds{};
-        for (std::size_t sample = 0; sample < shared_.samples(); ++sample)
+        for (std::size_t sample = 0; sample < shared_.samples; ++sample)
             *needs |= needs_of(list, triangles_of(list, sample), sample);
     }
     return *needs;
@@ -59,7 +59,7 @@ void FragmentSource::rasterize(const PreparedDraw& list, FragmentNeeds needs,
     const bool checks = shared_.wraps_depths() && needs.code && (shared_.statistics.counts || from_ == From::recording);
     const rasterizer::BatchSink sink = checks ? rasterizer::BatchSink{checked} : given;
     rasterize_sample(list, 0, needs, primitives, sink);
-    for (std::size_t sample = 1; sample < shared_.samples(); ++sample) {
+    for (std::size_t sample = 1; sample < shared_.samples; ++sample) {
         auto moved = [&, first = static_cast<std::uint32_t>(sample * shared_.pixels())](FragmentBatch& batch) {
             for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) batch.pixel[i] += first;
             sink(batch);
@@ -116,7 +116,7 @@ bool FragmentSource::record(const PreparedDraw& list, const FragmentNeeds& needs
     const MaterialNeeds& materials = needs_of_tile(list);
     if (rows_have(kept) && may_walk_rows(list) && materials == MaterialNeeds{} &&
         shared_.profile().raster.color == rasterizer::ColorInterpolation::exact_plane) {
-        for (std::size_t sample = 0; sample < shared_.samples(); ++sample) {
+        for (std::size_t sample = 0; sample < shared_.samples; ++sample) {
             const std::size_t first = fragments.size();
             shared_.statistics.fragments_drawn +=
                 record_rows(fragments, list.of_sample(sample), triangles_of(list, sample), shared_.frame.key_request(),
@@ -174,7 +174,7 @@ DepthOutcome FragmentSource::depth_outcome(const PassState& state, const Prepare
         shared_.is_frame() || shared_.frame.effects == Effects::all || &list != shared_.frame.transparent)
         return DepthOutcome::open;
     double bound = 0;
-    for (std::size_t sample = 0; sample < shared_.samples(); ++sample)
+    for (std::size_t sample = 0; sample < shared_.samples; ++sample)
         bound = std::max(bound, depth_bound(list.of_sample(sample), triangles_of(list, sample)));
     const auto code = [&](float z) { return to_depth_code(z, depth.format, shared_.profile().raster.depth_rounding); };
     return code(static_cast<float>(bound)) < code(1.0f) ? DepthOutcome::passes : DepthOutcome::open;

@@ -208,7 +208,7 @@ void Stages::decode_loaded(const FormatInfo& format, std::size_t read, int count
 
 // The emulator's own passes, which are not counted, look at their own sample.
 LoadedSample Stages::loaded_sample() const noexcept {
-    if (shared_.samples() == 1 || !shared_.statistics.counts) return LoadedSample::own;
+    if (shared_.samples == 1 || !shared_.statistics.counts) return LoadedSample::own;
     return kind_ == PassKind::geometry ? shared_.frame.loads : shared_.frame.composites;
 }
 
@@ -220,7 +220,7 @@ void Stages::load_resolved(TargetStorage& from, std::size_t read, const Fragment
         Lanes<std::uint32_t>& nearest = shared_.scratch.loads.depth_[read];
         std::fill_n(nearest.begin(), batch.count, ~0u);
         Lanes<std::uint32_t> code;
-        for (std::size_t s = 0; s < shared_.samples(); ++s) {
+        for (std::size_t s = 0; s < shared_.samples; ++s) {
             const Lanes<std::uint32_t> elements = elements_of(batch, s);
             gather_codes(codes_in(from.depth_plane(0)), {elements.data(), static_cast<std::size_t>(batch.count)},
                          &code);
@@ -229,7 +229,7 @@ void Stages::load_resolved(TargetStorage& from, std::size_t read, const Fragment
         }
         return;
     }
-    ColorResolve resolve{static_cast<int>(shared_.samples()), profile.resolve, profile.color_rounding()};
+    ColorResolve resolve{static_cast<int>(shared_.samples), profile.resolve, profile.color_rounding()};
     Image sample{format, batch.count, 1};
     ColorCodes& codes = shared_.scratch.codes;
     const auto for_each_code = [&](Image& image, const auto& visit) {
@@ -237,7 +237,7 @@ void Stages::load_resolved(TargetStorage& from, std::size_t read, const Fragment
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
             for (std::size_t c = 0; c < channels; ++c) visit(image.codes[i * channels + c], codes[c][i]);
     };
-    for (std::size_t s = 0; s < shared_.samples(); ++s) {
+    for (std::size_t s = 0; s < shared_.samples; ++s) {
         from.gather(elements_of(batch, s), batch.count, 0, codes);
         for_each_code(sample, [](std::uint32_t& stored, std::uint32_t code) { stored = code; });
         resolve.add(sample);
@@ -314,8 +314,7 @@ void Stages::record_trace(const FragmentBatch& batch, const Outputs& out, const 
 
 void Stages::open_cache(const PassState& state) {
     if (shared_.profile().blend_storage == BlendStorage::target) return;
-    if (cache_ == nullptr)
-        cache_ = std::make_unique<TileCache>(shared_.rect(), shared_.frame.rect(), shared_.samples());
+    if (cache_ == nullptr) cache_ = std::make_unique<TileCache>(shared_.rect(), shared_.frame.rect(), shared_.samples);
     for (std::size_t k = 0; k < state.color.size(); ++k) {
         if (!state.color[k].exists()) continue;
         const TargetStorage& target = targets_.at(state.color[k]);

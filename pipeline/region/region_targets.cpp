@@ -160,11 +160,11 @@ void Targets::copy_rectangle(Target from, const rasterizer::Rect& from_rect, Tar
                      shared_.rect())
             .area() != written.area())
         throw NeedsFrame{};
-    for (std::size_t sample = 0; sample < shared_.samples(); ++sample)
+    for (std::size_t sample = 0; sample < shared_.samples; ++sample)
         for (int y = written.y0; y < written.y1; ++y)
             copy_row(source, written, y, dx, dy, static_cast<std::uint32_t>(sample * shared_.pixels()), texture);
     shared_.count(
-        of_copy(static_cast<std::uint64_t>(info(source.format()).bytes_per_pixel), written.area() * shared_.samples()));
+        of_copy(static_cast<std::uint64_t>(info(source.format()).bytes_per_pixel), written.area() * shared_.samples));
     shared_.count_pass({.copies = 1});
     shared_.show({.step = Step::copy, .to = to, .from = from});
 }
@@ -229,12 +229,12 @@ Image Targets::image(Target target, std::size_t sample) const {
 
 // Under reversed depth targets have keys, so the nearest depth always has the least code.
 Image Targets::resolved(Target target) const {
-    if (shared_.samples() == 1) return image(target);
+    if (shared_.samples == 1) return image(target);
     const DeviceProfile& profile = shared_.profile();
-    ColorResolve mean{static_cast<int>(shared_.samples()), profile.resolve, profile.color_rounding()};
+    ColorResolve mean{static_cast<int>(shared_.samples), profile.resolve, profile.color_rounding()};
     Image nearest;
     const bool has_depths = is_depth(at(target).format());
-    for (std::size_t sample = 0; sample < shared_.samples(); ++sample)
+    for (std::size_t sample = 0; sample < shared_.samples; ++sample)
         has_depths ? add_nearest(image(target, sample), nearest) : mean.add(image(target, sample));
     return has_depths ? nearest : std::move(mean).picture();
 }

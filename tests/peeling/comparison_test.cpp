@@ -232,8 +232,8 @@ TEST_CASE("an algorithm that knows only stored codes is rejected where another d
         const RenderResult result = render(scene.list, scene.view, {"ideal", algorithm}, options);
         REQUIRE(result.outcome == strata::peeling::Outcome::refused);
         CHECK(result.refusal->message(*strata::pipeline::find_profile("ideal")) ==
-              std::string{"profile ideal has no other compared depth in "} + algorithm +
-                  "; use depth_units, front_to_back, dual or dual_independent");
+              std::string{"algorithm "} + algorithm +
+                  " has no other compared depth; use depth_units, front_to_back, dual or dual_independent");
     }
     CHECK(render(scene.list, scene.view, {"ideal", "weighted_sum"}, options).outcome == strata::peeling::Outcome::done);
 }

@@ -92,7 +92,7 @@ TEST_CASE("a peel that compares its own codes rejects an experiment with another
     e.compare = DepthPath::perspective_rq;
     const Measurement m = measured(e);
     REQUIRE(m.refusal);
-    CHECK(m.refusal->message(*find_profile("ideal")).find("other compared depth in coherent_stencil") !=
+    CHECK(m.refusal->message(*find_profile("ideal")).find("algorithm coherent_stencil has no other compared depth") !=
           std::string::npos);
     CHECK(m.paths == PathComparison{});
 }

@@ -152,7 +152,8 @@ TEST_CASE("a separate back format is rejected where nothing is composited from b
     options.back_format = Format::rgba16f;
     const RenderResult result = render(scene, {"geforce8", "front_to_back"}, options);
     REQUIRE(result.refusal);
-    CHECK(result.refusal->feature == "separate back format in front_to_back, which composites from one end only");
+    CHECK(result.refusal->feature == "separate back format, because it composites from one end only");
+    CHECK(result.refusal->algorithm == "front_to_back");
     CHECK_FALSE(render(scene, {"geforce8", "dual"}, options).refusal);
     options.back_format.reset();
     options.result_format = Format::rgba16f;

@@ -191,8 +191,7 @@ TEST_CASE("layers of an algorithm that composites immediately are rejected") {
     RenderOptions options = options_for(one_fragment());
     options.keep_layers = true;
     CHECK(refusal_message({"geforce8", "weighted_average"}, options) ==
-          "profile geforce8 has no saved layers in weighted_average, which composites without saving layers; use dual "
-          "or front_to_back");
+          "algorithm weighted_average has no saved layers; use dual or front_to_back");
     CHECK(refusal_message({"geforce8", "dual"}, options).empty());
     CHECK(refusal_message({"geforce8", "front_to_back"}, options).empty());
     CHECK(refusal_message({"geforce3", "depth_units"}, options).empty());

@@ -234,10 +234,9 @@ TEST_CASE("features that no device supports with several samples are rejected") 
     };
     CHECK(refusal_of({"geforce3", "depth_units"}, 8)
               .starts_with("profile geforce3 has no 8 samples per pixel (ARB_multisample)"));
-    CHECK(
-        refusal_of({"geforce8", "stencil_routed_k_buffer"}, 2) ==
-        "profile geforce8 has no multisampling in stencil_routed_k_buffer, which stores fragments in the samples; use "
-        "--samples 1, or k_buffer");
+    CHECK(refusal_of({"geforce8", "stencil_routed_k_buffer"}, 2) ==
+          "algorithm stencil_routed_k_buffer has no multisampling, because it stores fragments in the samples; use "
+          "--samples 1, or k_buffer");
     CHECK(refusal_of({"geforce8", "stencil_routed_k_buffer"}, 1).empty());
     CHECK_THROWS_AS(sampled(scene, {"geforce8", "dual"}, sampled_options(), 3), strata::InputError);
     RenderOptions beside = sampled_options();

@@ -189,11 +189,11 @@ RunSummary summarize(const peeling::Algorithm& algorithm, peeling::RenderResult&
 
 // Renders, and writes the files while the pixels exist. A refused algorithm writes no file.
 RunSummary run_one(const Session& session, const peeling::Algorithm& algorithm, peeling::Renderer& renderer,
-                   int samples, const Writer& write) {
+                   const Writer& write) {
     Progress progress(algorithm.name);
     peeling::RenderResult result = renderer.render(algorithm, [&](double share) { progress.show(share); });
     const bool is_done = result.outcome == peeling::Outcome::done;
-    if (is_done) write({session, algorithm, renderer, samples, result});
+    if (is_done) write({session, algorithm, renderer, result});
     RunSummary summary = summarize(algorithm, std::move(result));
     if (is_done) say_detail(path_text(summary));
     return summary;
@@ -246,7 +246,7 @@ int run_algorithms(RunOptions& options, const Writer& write) {
     std::vector<RunSummary> runs;
     for (const peeling::Algorithm* algorithm : options.algorithms) {
         scenes::set_interrupt_message(undone(options, runs.size()));
-        runs.push_back(run_one(session, *algorithm, renderer, options.render.sampling.samples, write));
+        runs.push_back(run_one(session, *algorithm, renderer, write));
     }
     scenes::set_interrupt_message("");
     report(options, runs, session.profile.name);

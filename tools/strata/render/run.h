@@ -42,7 +42,6 @@ struct CompletedRun {
     const Session& session;
     const peeling::Algorithm& algorithm;
     peeling::Renderer& renderer;
-    int samples;                    // that the renderer resolves
     peeling::RenderResult& result;  // the writer may move its layers out
 };
 

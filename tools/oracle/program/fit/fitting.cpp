@@ -23,10 +23,10 @@ std::vector<Proof> search_and_prove(const Lists& lists, const Program& base, con
         place_thresholds(lists, sample, program, of_program);
         proofs.push_back(prove(lists, program, right));
         if (proofs.back().cost > 0.5 * right.bits || proofs.size() > 3) continue;
-        for (Program& twin : twins(sample, program)) {
-            place_thresholds(lists, sample, twin, of_program);
-            if (measure(lists, twin, of_program).bits < 1.15 * proofs.back().fitness.bits + 60)
-                others.push_back(prove(lists, twin, right));
+        for (Program& equal : equal_programs(sample, program)) {
+            place_thresholds(lists, sample, equal, of_program);
+            if (measure(lists, equal, of_program).bits < 1.15 * proofs.back().fitness.bits + 60)
+                others.push_back(prove(lists, equal, right));
         }
     }
     proofs.insert(proofs.end(), others.begin(), others.end());

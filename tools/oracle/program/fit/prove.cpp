@@ -85,7 +85,7 @@ std::optional<Condition> separating(const FragmentProperty& property, const std:
 
 }  // namespace
 
-std::vector<Program> twins(const FitSample& sample, const Program& program) {
+std::vector<Program> equal_programs(const FitSample& sample, const Program& program) {
     std::vector<Program> all;
     const Edit& edit = program.edits.back();
     const PortStep step = edit.entry->step;
@@ -99,8 +99,8 @@ std::vector<Program> twins(const FitSample& sample, const Program& program) {
             if (&property == edit.conditions[i].property || (step != PortStep::list && !property.is_of_pixel)) continue;
             const auto found = separating(property, sample.values(property, step), given, wanted);
             if (!found) continue;
-            Program& twin = all.emplace_back(program);
-            twin.edits.back().conditions[i] = *found;
+            Program& equal = all.emplace_back(program);
+            equal.edits.back().conditions[i] = *found;
         }
     }
     return all;

@@ -28,7 +28,7 @@ struct Proof {
 // Moves the thresholds of a program's last edit to where the whole picture costs least.
 void place_thresholds(const Lists& lists, const FitSample& sample, Program& program, const PortRounding& rounding);
 // Programs whose last edit has another property in a condition, which selects the same fragments of the sample.
-[[nodiscard]] std::vector<Program> twins(const FitSample& sample, const Program& program);
+[[nodiscard]] std::vector<Program> equal_programs(const FitSample& sample, const Program& program);
 // True if both predict the same picture, to a code of the candidate.
 [[nodiscard]] bool predict_alike(const Lists& lists, const Program& a, const Program& b);
 
