@@ -19,13 +19,13 @@ std::optional<OptionConflict> conflict_of_coverage(const PictureRequest& request
     return std::nullopt;
 }
 
-// A request of one sample keeps its own place.
+// A frame of one sample at a place of its own keeps it.
 void take_interpolation(PictureRequest& request) {
     using enum rasterizer::Interpolation;
     rasterizer::Interpolation& where = request.render.raster.interpolation;
     if (request.shades_pixels)
         where = request.interpolate.value_or(where == sample ? centre : where);
-    else if (request.sampling.samples > 1)
+    else if (request.sampling.samples > 1 || !request.render.raster.sample)
         where = sample;
     request.interpolate.reset();
     if (request.shades_pixels && where == centroid) request.interpolate = centroid;
@@ -86,6 +86,15 @@ void complete(PictureRequest& request, const pipeline::DeviceProfile& profile) {
     take_interpolation(request);
     take_samples(request, profile);
     take_background(request);
+}
+
+PictureRequest request_of(const peeling::RenderOptions& options) {
+    const bool has_samples = options.sampling.samples > 1;
+    return {.clip_depth = options.raster.clip_depth,
+            .depth_order = options.raster.depth_order,
+            .render = options,
+            .sampling = options.sampling,
+            .shades_pixels = has_samples && options.raster.interpolation != rasterizer::Interpolation::sample};
 }
 
 }  // namespace strata::tools

@@ -21,4 +21,7 @@ struct OptionConflict {
 // if the profile lacks the number of samples of --sample.
 void complete(PictureRequest& request, const pipeline::DeviceProfile& profile);
 
+// The request that complete() turns into these options: those of a pack.
+[[nodiscard]] PictureRequest request_of(const peeling::RenderOptions& options);
+
 }  // namespace strata::tools

@@ -103,6 +103,11 @@ bool set_depth_range(PictureRequest& request, std::string_view text) {
     return true;
 }
 
+void copy_depth_range(PictureRequest& to, const PictureRequest& from) {
+    to.render.raster.depth_near = from.render.raster.depth_near;
+    to.render.raster.depth_far = from.render.raster.depth_far;
+}
+
 std::string depth_range_text(const PictureRequest& request) {
     return fmt::format("{},{}", request.render.raster.depth_near, request.render.raster.depth_far);
 }
@@ -148,7 +153,7 @@ std::vector<OptionField> depth_fields() {
         joint(depth,
               {"depth-range", "NEAR,FAR", "glDepthRange: the depths of the near and of the far plane (default 0,1)",
                "two numbers from 0 to 1 such as 0,0.5"},
-              set_depth_range, depth_range_text),
+              set_depth_range, depth_range_text, copy_depth_range),
         field<&PictureRequest::render, &RenderOptions::raster, &RasterState::scissor>(
             depth,
             {"scissor", "X,Y,W,H",

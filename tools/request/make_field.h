@@ -34,11 +34,13 @@ inline constexpr bool is_optional<std::optional<T>> = true;
 // An option of several members.
 [[nodiscard]] inline OptionField joint(OptionGroup group, const FieldText& text,
                                        std::function<bool(PictureRequest&, std::string_view)> set,
-                                       std::function<std::string(const PictureRequest&)> write) {
+                                       std::function<std::string(const PictureRequest&)> write,
+                                       std::function<void(PictureRequest&, const PictureRequest&)> copy) {
     OptionField made{
         .name = text.name, .group = group, .type = text.type, .help = text.help, .expected = text.expected};
     made.set = std::move(set);
     made.text = std::move(write);
+    made.copy = std::move(copy);
     return made;
 }
 
@@ -50,13 +52,15 @@ template <auto... path, class Read, class Write>
         if (value) at<path...>(request) = *value;
         return value.has_value();
     };
-    return joint(group, text, set, [write](const PictureRequest& request) -> std::string {
+    const auto written = [write](const PictureRequest& request) -> std::string {
         const auto& value = at<path...>(request);
         if constexpr (is_optional<std::remove_cvref_t<decltype(value)>>)
             return value ? write(*value) : "";
         else
             return write(value);
-    });
+    };
+    return joint(group, text, set, written,
+                 [](PictureRequest& to, const PictureRequest& from) { at<path...>(to) = at<path...>(from); });
 }
 
 // A number, written in the shortest decimals that read back.

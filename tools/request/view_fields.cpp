@@ -19,6 +19,12 @@ bool set_size(PictureRequest& request, std::string_view text) {
     return request.states_size = true;
 }
 
+void copy_size(PictureRequest& to, const PictureRequest& from) {
+    to.render.width = from.render.width;
+    to.render.height = from.render.height;
+    to.states_size = from.states_size;
+}
+
 std::string size_text(const PictureRequest& request) {
     return fmt::format("{}x{}", request.render.width, request.render.height);
 }
@@ -43,6 +49,11 @@ bool set_alpha(PictureRequest& request, std::string_view text) {
     request.render.alpha = everything;
     request.scene_options.alpha = *materials;
     return true;
+}
+
+void copy_alpha(PictureRequest& to, const PictureRequest& from) {
+    to.render.alpha = from.render.alpha;
+    to.scene_options.alpha = from.scene_options.alpha;
 }
 
 std::string alpha_text(const PictureRequest& request) {
@@ -83,7 +94,7 @@ std::vector<OptionField> view_fields() {
         joint(view,
               {"size", "WIDTHxHEIGHT", "pixels (default 1024x1024)",
                "WIDTHxHEIGHT such as 640x480, each from 1 to 16384"},
-              set_size, size_text),
+              set_size, size_text, copy_size),
         field<&PictureRequest::orbit>(
             view,
             {"orbit", "AZ,EL", "look at the scene's bounds from these degrees (default 30,20)",
@@ -96,7 +107,7 @@ std::vector<OptionField> view_fields() {
               {"alpha", "A|MATERIAL=A[,...]",
                "draw everything as transparent, its own alpha times A, or these materials alone",
                "a number from 0 to 1, or MATERIAL=A with commas between"},
-              set_alpha, alpha_text),
+              set_alpha, alpha_text, copy_alpha),
         field<&PictureRequest::background>(
             view,
             {"background", "R,G,B[,A]|none", "sRGB values from 0 to 1, and alpha; none is 0,0,0,0 (default 0,0,0,1)",

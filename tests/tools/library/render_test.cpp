@@ -149,3 +149,20 @@ TEST_CASE("concurrent calls on several threads give the same result as a single 
     }
     for (const std::string& digest : digests) CHECK(digest == alone);
 }
+
+TEST_CASE("options by name are those of the command line and a wrong one is named") {
+    DeviceProfile device = profile("geforce8");
+    const RenderOptions options =
+        options_of({{"samples", "4"}, {"depth_format", "d24"}, {"clip-depth", "zero-to-one"}, {"size", "6x5"}}, device);
+    CHECK(options.sampling.samples == 4);
+    CHECK(options.depth == pipeline::DepthFormat::d24);
+    CHECK(options.raster.clip_depth == rasterizer::ClipDepth::zero_to_one);
+    CHECK((options.width == 6 && options.height == 5));
+    static_cast<void>(options_of({{"origin", "lower-left"}}, device));
+    CHECK(device == with_origin(profile("geforce8"), pipeline::Origin::lower_left));
+    CHECK_THROWS_WITH(options_of({{"smaples", "4"}}, device), Contains("did you mean 'samples'"));
+    CHECK_THROWS_WITH(options_of({{"samples", "3"}}, device), Contains("options: samples: expected"));
+    CHECK_THROWS_WITH(options_of({{"camera", "front"}}, device), Contains("found 'camera'"));
+    CHECK_THROWS_WITH(options_of({{"alpha", "glass=1"}}, device), Contains("found alphas of materials"));
+    CHECK_THROWS_WITH(options_of({{"shading", "pixel"}}, device), Contains("valid only with --samples"));
+}

@@ -1,4 +1,6 @@
 """Tests Python scenes against the same triangles in other layouts, and error messages against texts written by hand."""
+import random
+
 import numpy as np
 import pytest
 
@@ -93,3 +95,26 @@ def test_options_that_exclude_each_other_are_refused():
         strata.render(strata.Scene("teapot"), size=(8, 8), shading="pixel")
     with pytest.raises(TypeError, match="camera"):
         strata.render(strata.Scene("teapot"), size=(8, 8), camera="front")
+
+
+def test_keywords_are_the_options_of_a_command_line_and_back():
+    """Random sets of options: keywords, the words of a command line, keywords of these."""
+    draw = random.Random(56)
+    words = {key: choices for key, choices in strata._strata._option_words().items() if choices}
+    numbers = {"max_passes": [1, 7], "nodes": [1, 8], "sample_coverage": [0.25, 1], "sample_mask": [0, 254], "moment_bias": [0.5]}
+    texts = {"size": [(640, 480), "64x48"], "background": [(0.25, 0.5, 0), "none"], "sort": ["bucket:8", "reverse"], "alpha": [0.5]}
+    everything = {**words, **numbers, **texts}
+    assert {"samples", "depth_format", "clip_depth", "resolve"} <= set(everything) and not {"camera", "orbit"} & set(everything)
+    for _ in range(500):
+        given = {key: draw.choice(values) for key, values in everything.items() if draw.random() < 0.3}
+        line = strata._strata._command_words(**given)
+        again, rest = {}, list(line)
+        while rest:
+            name = rest.pop(0)[2:]
+            if name.startswith("no-"):
+                again[name[3:].replace("-", "_")] = False
+            else:
+                key = name.replace("-", "_")
+                again[key] = True if words.get(key) == ["true", "false"] else rest.pop(0)
+        assert strata._strata._command_words(**again) == line
+        assert set(again) <= set(given)

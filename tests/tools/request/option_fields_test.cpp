@@ -1,67 +1,17 @@
 // Tests the table of options: texts and values of every field, and the command line that is made from it.
-#include "tools/request/option_fields.h"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
 #include <random>
 #include <set>
 
+#include "tests/tools/request/option_examples.h"
+
 using strata::tools::OptionField;
 using strata::tools::PictureRequest;
+using namespace strata::test;
 
 namespace {
-
-using Texts = std::vector<std::string>;
-
-// Texts of an option: the first ones are valid and in their shortest form, those after "invalid" are not. Choices and
-// flags have their words. A new field fails the first test until it is listed.
-const std::map<std::string, Texts>& examples() {
-    static const std::map<std::string, Texts> all{
-        {"scene", {"0", "7", "invalid", "-1", "x", "1.5"}},
-        {"size", {"1x1", "640x480", "16384x16384", "invalid", "0x1", "16385x1", "640", "640x480x2", "+1x1"}},
-        {"orbit", {"0,0", "30,20", "-12.5,7.25", "invalid", "30", "30,20,10", "a,b", "inf,0"}},
-        {"camera", {"front", "a b.json", "invalid", ""}},
-        {"alpha", {"0", "0.25", "1", "glass=0.3", "a=b=0.5,water=1", "invalid", "1.5", "=0.5", "glass", "glass=2"}},
-        {"background", {"none", "0.1,0.2,0.3", "1,1,1,0.5", "invalid", "0.1", "0,0,0,0,0", "2,0,0"}},
-        {"compare-epsilon", {"1e-07", "0.5", "2ulp", "invalid", "-1", "2ulps", "16777217ulp", "1.5ulp"}},
-        {"vertex-path", {"separate", "separate,fused", "invalid", "", "separate,separate,separate", "none"}},
-        {"polygon-offset", {"0,0", "1,1", "-2.5,16777216", "invalid", "1", "1,16777218", "1,2,3"}},
-        {"depth-range", {"0,0.5", "1,0", "0.25,0.75", "invalid", "0", "0,2", "-0.1,1"}},
-        {"scissor", {"0,0,1,1", "240,180,160,120", "invalid", "0,0,0,1", "1,2,3", "-1,0,1,1"}},
-        {"termination", {"paper", "any", "ratio:0.001", "fixed:3", "invalid", "ratio:2", "fixed:0", "exactly"}},
-        {"max-passes", {"1", "1000", "invalid", "-1", "many"}},
-        {"nodes", {"1", "8", "invalid", "0", "9"}},
-        {"pixel-nodes", {"1", "invalid", "-1"}},
-        {"frame-nodes", {"1000", "invalid", "-1"}},
-        {"moment-bias", {"0", "5e-07", "1", "invalid", "2", "-1"}},
-        {"overestimation", {"0", "0.5", "invalid", "1.01"}},
-        {"stochastic-samples", {"1", "8", "invalid", "0", "9"}},
-        {"stochastic-seed", {"1", "4294967295", "invalid", "4294967296", "-1"}},
-        {"sample", {"0", "7", "invalid", "-1"}},
-        {"sample-coverage", {"0", "0.5", "1", "invalid", "1.5"}},
-        {"sample-mask", {"0", "254", "invalid", "256", "-1"}},
-        {"sorted", {"a", "a,b c"}},
-        {"sort",
-         {"exact", "reverse", "bucket:8", "shuffle:0.5,18446744073709551615", "invalid", "bucket:0", "shuffle:2,1",
-          "shuffle:0.5", "sorted"}},
-        {"fragment-memory", {"0", "65536", "invalid", "-1", "16X", "18446744073709551616"}},
-        {"threads", {"1", "1024", "invalid", "1025"}},
-    };
-    return all;
-}
-
-// The valid and the invalid texts of a field.
-std::pair<Texts, Texts> texts_of(const OptionField& field) {
-    if (field.is_flag) return {{"true", "false"}, {"", "yes", "1"}};
-    if (!field.words.empty()) return {field.words, {"", "invalid", field.words.front() + "x"}};
-    const auto found = examples().find(field.name);
-    INFO(field.name << " has no examples in this test");
-    REQUIRE(found != examples().end());
-    const auto divider = std::ranges::find(found->second, "invalid");
-    const auto past = divider == found->second.end() ? divider : divider + 1;
-    return {{found->second.begin(), divider}, {past, found->second.end()}};
-}
 
 // The texts of all fields.
 std::map<std::string, std::string> all_texts(const PictureRequest& request) {

@@ -8,6 +8,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "peeling/render.h"
@@ -27,6 +28,12 @@ using peeling::RenderOptions;
 using pipeline::CapturedFragment;
 using pipeline::Diagnostic;
 using pipeline::Refused;
+
+// The options of a frame by their names and texts on the command line: {{"samples", "4"}, {"depth-format", "d24"}}.
+// The profile completes them; the option "origin" is set in it. Throws InputError, which names the option; Refused if
+// the profile lacks the samples of the option "sample". The options of the scene and of its camera are not of a frame.
+using NamedOptions = std::vector<std::pair<std::string, std::string>>;
+[[nodiscard]] RenderOptions options_of(const NamedOptions& named, DeviceProfile& profile);
 
 class Rendering {
   public:

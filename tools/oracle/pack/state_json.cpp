@@ -1,6 +1,7 @@
 // tools/oracle/pack/state_json.cpp - the fields of a pack's `state`, one list for reading and writing (state_json.h,
-// PACK.md). A field of `optional` is null unless it is given, one of `if_any` is left out; a new field takes `if_any`,
-// so that packs that were written before can be read. A frame of one sample is drawn at one point of every pixel
+// PACK.md). A field of `optional` is null unless it is given, one of `if_any` is left out. An option that is new has no
+// field here: "options" has its text, by the table of options, so that packs that were written before can be read. A
+// frame of one sample is drawn at one point of every pixel
 // (`--sample`); a frame of all samples is resolved.
 #include "tools/oracle/pack/state_json.h"
 
@@ -10,6 +11,7 @@
 #include "pipeline/device/sample_points.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/packs/json_fields.h"
+#include "tools/request/option_fields.h"
 
 namespace strata::oracle {
 
@@ -227,6 +229,29 @@ void refuse(const char* field) {
     throw InputError("pack", field, "the default value, because a pack does not store this option", "another value");
 }
 
+// Options without a field of their own are texts in the object "options", by the names of the table.
+constexpr const char* texts = "options";
+
+void set_texts(const nlohmann::json& given, const std::string& file, RenderOptions& options) {
+    const std::string place = "/state/options";
+    tools::PictureRequest request{.render = options};
+    if (!given.is_object()) throw InputError(file, place, "an object", given.dump());
+    for (const auto& [name, text] : given.items()) {
+        if (!text.is_string()) throw InputError(file, place + "/" + name, "a string", text.dump());
+        tools::set_option(request, name, text.get<std::string>(), file + ": " + place, tools::is_of_frame);
+    }
+    options = request.render;
+}
+
+// The options of the frame that `state` does not have in its other fields.
+nlohmann::ordered_json texts_of(const RenderOptions& options, const RenderOptions& stated) {
+    nlohmann::ordered_json object;
+    const tools::PictureRequest all{.render = options}, kept{.render = stated};
+    for (const tools::OptionField& field : tools::option_fields())
+        if (tools::is_of_frame(field) && field.text(all) != field.text(kept)) object[field.key()] = field.text(all);
+    return object;
+}
+
 }  // namespace
 
 nlohmann::ordered_json state_json(const RenderOptions& options, const DeviceProfile& profile) {
@@ -242,6 +267,8 @@ nlohmann::ordered_json state_json(const RenderOptions& options, const DeviceProf
     algorithm(io, given);
     std::optional<SampledState> sampled = sampled_state(options, profile);
     sampling(io, sampled);
+    const RenderOptions stated = read_state({{"state", io.object}}, "state", profile);
+    if (auto others = texts_of(options, stated); !others.empty()) io.object[texts] = std::move(others);
     return std::move(io.object);
 }
 
@@ -256,6 +283,7 @@ RenderOptions read_state(const nlohmann::json& manifest, const std::string& file
     std::optional<SampledState> sampled;
     sampling(io, sampled);
     if (sampled) take_sampled_state(*sampled, file, profile, options);
+    if (manifest["state"].contains(texts)) set_texts(io.at(texts), file, options);
     io.end();
     return options;
 }

@@ -1,5 +1,8 @@
 #include "tools/oracle/reduce/defaults.h"
 
+#include "tools/request/complete.h"
+#include "tools/request/option_fields.h"
+
 namespace strata::oracle {
 
 namespace {
@@ -7,6 +10,7 @@ namespace {
 using peeling::RenderOptions;
 using pipeline::Material;
 using pipeline::Mesh;
+using tools::OptionField, tools::OptionGroup, tools::PictureRequest;
 
 // Sets `value`; true if it was different.
 template <class T>
@@ -24,59 +28,71 @@ bool any_of_all(std::vector<T>& values, Change change) {
     return has_changed;
 }
 
-constexpr Simplification all_simplifications[] = {
-    {"loads of other samples",
-     [](Golden& g) {
-         const bool has_changed = becomes(g.options.sampling.loads, {});
-         return becomes(g.options.sampling.composites, {}) || has_changed;
-     }},
-    {"the samples of a pixel",
-     [](Golden& g) {
-         if (!becomes(g.options.sampling.samples, 1)) return false;
-         g.options.sampling = {};
-         g.options.raster.interpolation = {};
-         g.options.raster.sample_coverage = {};
-         return true;
-     }},
-    {"the light", [](Golden& g) { return becomes(g.scene.list.light, {}); }},
-    {"textures",
-     [](Golden& g) { return any_of_all(g.scene.list.materials, [](Material& m) { return becomes(m.texture, -1); }); }},
-    {"lighting",
-     [](Golden& g) { return any_of_all(g.scene.list.materials, [](Material& m) { return becomes(m.unlit, true); }); }},
-    {"colours of vertices",
-     [](Golden& g) { return any_of_all(g.scene.list.meshes, [](Mesh& m) { return becomes(m.colors, {}); }); }},
-    {"materials' colours",
-     [](Golden& g) {
-         return any_of_all(g.scene.list.materials, [](Material& m) {
-             const float front = m.front[3], back = m.back[3];
-             return becomes(m.front, {1, 1, 1, front}) | becomes(m.back, {1, 1, 1, back});
-         });
-     }},
-    {"one-sided surfaces",
-     [](Golden& g) {
-         return any_of_all(g.scene.list.materials, [](Material& m) { return becomes(m.double_sided, true); });
-     }},
-    {"opaque surfaces",
-     [](Golden& g) {
-         return any_of_all(g.scene.list.materials,
-                           [](Material& m) { return becomes(m.alpha_mode, pipeline::AlphaMode::blend); });
-     }},
-    {"the background", [](Golden& g) { return becomes(g.options.background, RenderOptions{}.background); }},
-    {"the order of triangles", [](Golden& g) { return becomes(g.options.sort, {}); }},
-    {"the polygon offset", [](Golden& g) { return becomes(g.options.raster.polygon_offset, {}); }},
-    {"the scissor", [](Golden& g) { return becomes(g.options.raster.scissor, {}); }},
-    {"depth clamp", [](Golden& g) { return becomes(g.options.raster.depth_clamp, false); }},
-    {"the depth format", [](Golden& g) { return becomes(g.options.depth, {}); }},
-    {"the depth path", [](Golden& g) { return becomes(g.options.depth_path, {}); }},
-    {"the picture's format", [](Golden& g) { return becomes(g.options.result_format, {}); }},
-    {"the back's format", [](Golden& g) { return becomes(g.options.back_format, {}); }},
-    {"the colour format", [](Golden& g) { return becomes(g.options.color_format, {}); }},
-    {"the limit of passes", [](Golden& g) { return becomes(g.options.max_passes, 0); }},
-    {"the rule that ends the peel", [](Golden& g) { return becomes(g.options.termination, {}); }},
-};
+std::vector<Simplification> of_scene() {
+    return {{"the light", [](Golden& g) { return becomes(g.scene.list.light, {}); }},
+            {"textures",
+             [](Golden& g) {
+                 return any_of_all(g.scene.list.materials, [](Material& m) { return becomes(m.texture, -1); });
+             }},
+            {"lighting",
+             [](Golden& g) {
+                 return any_of_all(g.scene.list.materials, [](Material& m) { return becomes(m.unlit, true); });
+             }},
+            {"colours of vertices",
+             [](Golden& g) { return any_of_all(g.scene.list.meshes, [](Mesh& m) { return becomes(m.colors, {}); }); }},
+            {"materials' colours",
+             [](Golden& g) {
+                 return any_of_all(g.scene.list.materials, [](Material& m) {
+                     const float front = m.front[3], back = m.back[3];
+                     return becomes(m.front, {1, 1, 1, front}) | becomes(m.back, {1, 1, 1, back});
+                 });
+             }},
+            {"one-sided surfaces",
+             [](Golden& g) {
+                 return any_of_all(g.scene.list.materials, [](Material& m) { return becomes(m.double_sided, true); });
+             }},
+            {"opaque surfaces",
+             [](Golden& g) {
+                 return any_of_all(g.scene.list.materials,
+                                   [](Material& m) { return becomes(m.alpha_mode, pipeline::AlphaMode::blend); });
+             }},
+            {"the background", [](Golden& g) { return becomes(g.options.background, RenderOptions{}.background); }},
+            {"depth clamp", [](Golden& g) { return becomes(g.options.raster.depth_clamp, false); }}};
+}
+
+// Resets options of the table; false if they have their defaults or do not go together then.
+bool reset(Golden& scene, const std::function<bool(const OptionField&)>& is_reset) {
+    PictureRequest request = tools::request_of(scene.options);
+    bool has_changed = false;
+    for (const OptionField& field : tools::option_fields()) {
+        if (!is_reset(field) || field.is_default(request)) continue;
+        field.copy(request, {});
+        has_changed = true;
+    }
+    if (!has_changed || tools::option_conflict(request)) return false;
+    tools::complete(request, scene.profile);
+    scene.options = request.render;
+    return true;
+}
+
+bool is_of_samples(const OptionField& field) {
+    return field.group == OptionGroup::samples || field.group == OptionGroup::shading;
+}
+
+// The view is written in its conventions, which therefore stay.
+bool is_convention(const OptionField& field) { return field.name == "clip-depth" || field.name == "depth-order"; }
 
 }  // namespace
 
-std::span<const Simplification> simplifications() { return all_simplifications; }
+std::vector<Simplification> simplifications() {
+    std::vector<Simplification> all = of_scene();
+    all.push_back({"the samples of a pixel", [](Golden& g) { return reset(g, is_of_samples); }});
+    for (const OptionField& field : tools::option_fields())
+        if (tools::is_of_frame(field) && !is_convention(field))
+            all.push_back({field.option(), [&field](Golden& g) {
+                               return reset(g, [&](const OptionField& other) { return &other == &field; });
+                           }});
+    return all;
+}
 
 }  // namespace strata::oracle

@@ -42,13 +42,9 @@ template <class Owner>
 // array's shape and type.
 [[nodiscard]] Picture picture_of_array(const py::array& array, const std::string& meaning);
 
-// The settings that keywords give.
-struct Settings {
-    RenderOptions options{};
-};
 // Converts keyword arguments; `origin` is set in the profile. Throws TypeError for an unknown keyword and InputError
 // for an invalid value.
-[[nodiscard]] Settings settings_of(const py::kwargs& keywords, DeviceProfile& profile);
+[[nodiscard]] RenderOptions options_of_keywords(const py::kwargs& keywords, DeviceProfile& profile);
 
 // Calls the library with the interpreter lock released. The result is shared, so arrays can refer to its memory.
 template <class Work>
@@ -57,6 +53,7 @@ auto unlocked(const Work& work) {
     return std::make_shared<decltype(work())>(work());
 }
 
+void bind_options(py::module_& module);
 void bind_own_algorithm(py::module_& module);
 void bind_scene(py::module_& module);
 void bind_results(py::module_& module);

@@ -21,6 +21,7 @@ PYBIND11_MODULE(_strata, module) {
         for (const Algorithm& algorithm : peeling::algorithms()) names.push_back(algorithm.name);
         return names;
     });
+    bind_options(module);
     bind_scene(module);
     bind_results(module);
     bind_own_algorithm(module);

@@ -110,12 +110,12 @@ void bind_own_algorithm(py::module_& module) {
     module.def("_render_own", [](const Scene& scene, const py::function& body, const std::string& name,
                                  const std::string& profile_name, const py::kwargs& keywords) {
         DeviceProfile profile = strata::profile(profile_name);
-        const Settings settings = settings_of(keywords, profile);
+        const RenderOptions options = options_of_keywords(keywords, profile);
         std::exception_ptr failed;
         const auto result = [&] {
             const Algorithm own = own_algorithm(
                 name, [&](Region& region) { run(region, body, failed); }, true);
-            return unlocked([&] { return render(scene, own, profile, settings.options); });
+            return unlocked([&] { return render(scene, own, profile, options); });
         }();
         if (failed) std::rethrow_exception(failed);
         return result;

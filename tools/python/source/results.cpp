@@ -11,13 +11,12 @@ namespace {
 struct Asked {
     Algorithm algorithm;
     DeviceProfile profile;
-    Settings settings;
-    const RenderOptions& options = settings.options;
-    const Multisampling& sampling = settings.options.sampling;
+    RenderOptions options;
+    const Multisampling& sampling = options.sampling;
     Asked(const std::string& algorithm_name, const std::string& profile_name, const py::kwargs& keywords)
         : algorithm{strata::algorithm(algorithm_name)},
           profile{strata::profile(profile_name)},
-          settings{settings_of(keywords, profile)} {}
+          options{options_of_keywords(keywords, profile)} {}
 };
 
 py::dict audit_of(const AuditResult& audit) {
@@ -220,9 +219,9 @@ void bind_judgement(py::module_& module) {
     module.def("_judge", [](const Scene& scene, const Picture& candidate, const std::string& profile_name,
                             const py::kwargs& keywords) {
         DeviceProfile profile = strata::profile(profile_name);
-        const Settings settings = settings_of(keywords, profile);
+        const RenderOptions options = options_of_keywords(keywords, profile);
         py::gil_scoped_release without_lock;
-        return judge(scene, candidate, profile, settings.options);
+        return judge(scene, candidate, profile, options);
     });
 }
 

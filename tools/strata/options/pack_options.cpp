@@ -4,6 +4,7 @@
 #include "scenes/packs/pack_scene.h"
 #include "scenes/read_files.h"
 #include "tools/oracle/pack/state_json.h"
+#include "tools/request/complete.h"
 
 namespace strata::tools {
 
@@ -13,13 +14,9 @@ void take_pack_state(RunOptions& options, const std::string& scene) {
     scenes::note_read_pack(folder);
     const nlohmann::json manifest = scenes::read_manifest(folder);
     options.profile = scenes::pack_profile(folder);
-    options.render = oracle::read_state(manifest, folder + "/manifest.json", scenes::load_profile(options.profile));
-    options.sampling = options.render.sampling;
-    options.shades_pixels =
-        options.sampling.samples > 1 && options.render.raster.interpolation != rasterizer::Interpolation::sample;
+    static_cast<PictureRequest&>(options) =
+        request_of(oracle::read_state(manifest, folder + "/manifest.json", scenes::load_profile(options.profile)));
     options.scene_options.color_space = scenes::color_space_of(folder, manifest);
-    options.clip_depth = options.render.raster.clip_depth;
-    options.depth_order = options.render.raster.depth_order;
     options.pack_convention = scenes::ClipConvention{*options.clip_depth, *options.depth_order};
 }
 

@@ -208,14 +208,7 @@ void tell_table(const RunOptions& options, const std::string& table) {
 // Prints the statistics after all algorithms have run: as JSON, as a table, or both.
 void report(const RunOptions& options, const std::vector<RunSummary>& runs, const std::string& profile) {
     const std::chrono::duration<double> total = std::chrono::steady_clock::now() - options.started;
-    const RunContext context{.profile = profile,
-                             .width = options.render.width,
-                             .height = options.render.height,
-                             .execution = options.render.execution,
-                             .simd = options.render.simd,
-                             .fragment_memory = options.render.fragment_memory,
-                             .audited = options.render.audit,
-                             .total_seconds = total.count()};
+    const RunContext context{profile, options, total.count()};
     if (scenes::is_standard_output(options.stats)) return print(to_json(runs, context));
     if (!options.stats.empty()) scenes::write_file(options.stats, to_json(runs, context));
     tell_table(options, to_table(runs, context));

@@ -7,6 +7,7 @@
 #include "peeling/render.h"
 #include "rasterizer/base/enum_values.h"
 #include "tools/request/choices.h"
+#include "tools/request/option_fields.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -50,6 +51,14 @@ ordered_json to_json(const std::vector<pipeline::Diagnostic>& diagnostics) {
     return list;
 }
 
+// The options on which bits depend and that are not their defaults, as their texts.
+ordered_json options_of(const PictureRequest& request) {
+    ordered_json options = ordered_json::object();
+    for (const OptionField& field : option_fields())
+        if (!keeps_bits(field.group) && !field.is_default(request)) options[field.key()] = field.text(request);
+    return options;
+}
+
 // Null if the algorithm ran.
 ordered_json refusal_of(const RunSummary& run) {
     if (is_done(run)) return nullptr;
@@ -71,7 +80,7 @@ std::vector<std::string> cells(const RunSummary& run, const RunContext& context)
     const auto& [algorithm, result, color, depth] = run;
     if (!is_done(run)) return {algorithm->name, "refused", "-", "-", "-", "-", "-", "-", "-", "-"};
     const peeling::AuditResult& audit = result.audit;
-    const auto audited = [&](const std::string& text) { return context.audited ? text : "-"; };
+    const auto audited = [&](const std::string& text) { return context.request.render.audit ? text : "-"; };
     return {algorithm->name, std::string(enum_name(result.outcome)), fmt::format("{}", result.frame.passes.geometry),
             audited(fmt::format("{}", audit.layers_max)),
             audited(audit.order_errors ? fmt::format("{}", *audit.order_errors) : "-"),
@@ -91,20 +100,22 @@ std::string path_text(const RunSummary& run) {
 ordered_json to_row(const RunSummary& run, const RunContext& context) {
     const auto& [algorithm, result, color, depth] = run;
     const peeling::AuditResult& audit = result.audit;
+    const peeling::RenderOptions& asked = context.request.render;
     // The counts of a refused row are 0, not null, also without the audit.
-    const bool counted = context.audited || !is_done(run);
+    const bool counted = context.request.render.audit || !is_done(run);
     const auto audited = [&](ordered_json value) { return counted ? value : ordered_json(nullptr); };
     const bool has_order = !is_done(run) || audit.order_errors.has_value();
     ordered_json row;
     row["algorithm"] = algorithm->name;
     row["profile"] = context.profile;
-    row["execution"] = name_of(executions, context.execution);
-    row["simd"] = name_of(simds, context.simd);
-    row["fragment_memory"] = context.fragment_memory;
+    row["execution"] = name_of(executions, asked.execution);
+    row["simd"] = name_of(simds, asked.simd);  // as requested, because rows do not describe the machine
+    row["fragment_memory"] = asked.fragment_memory;
+    row["options"] = options_of(context.request);
     row["outcome"] = enum_name(result.outcome);
     row["refusal"] = refusal_of(run);
-    row["width"] = context.width;
-    row["height"] = context.height;
+    row["width"] = asked.width;
+    row["height"] = asked.height;
     row["iterations"] = result.frame.iterations;
     row["geometry_passes"] = result.frame.passes.geometry;
     row["fullscreen_passes"] = result.frame.passes.full_screen;
@@ -143,7 +154,7 @@ std::string to_table(const std::vector<RunSummary>& runs, const RunContext& cont
     for (const RunSummary& run : runs) {
         table.rows.push_back(cells(run, context));
         for (const auto& diagnostic : run.result.frame.diagnostics) notes += describe(run.algorithm->name, diagnostic);
-        if (is_done(run) && context.audited && run.result.audit.max_difference > 255)
+        if (is_done(run) && context.request.render.audit && run.result.audit.max_difference > 255)
             notes += fmt::format("{}: the greatest difference is {:.3f} times white: its colours exceed 1\n",
                                  run.algorithm->name, run.result.audit.max_difference / 255);
     }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "peeling/render.h"
-#include "rasterizer/base/simd.h"
+#include "tools/request/picture_request.h"
 
 namespace strata::tools {
 
@@ -17,14 +17,10 @@ struct RunSummary {
     std::string color_digest, depth_digest;
 };
 
-// Settings that all algorithms of a command share.
+// What all algorithms of a command share.
 struct RunContext {
     std::string profile;
-    int width = 0, height = 0;
-    pipeline::Execution execution = pipeline::Execution::replay;
-    Simd simd = Simd::best;  // as requested, because rows do not describe the machine
-    std::uint64_t fragment_memory = 0;
-    bool audited = true;       // false: all values of the audit are null
+    const PictureRequest& request;
     double total_seconds = 0;  // seconds since the start of the process
 };
 

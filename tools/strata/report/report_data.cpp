@@ -12,6 +12,7 @@
 #include "pipeline/device/sample_points.h"
 #include "rasterizer/base/input_error.h"
 #include "tools/oracle/explain/history_report.h"
+#include "tools/request/option_fields.h"
 #include "tools/strata/progress.h"
 #include "tools/strata/render/stats.h"
 #include "tools/strata/report/survey.h"
@@ -78,6 +79,13 @@ ordered_json fragments_of(const Columns& columns, const Kept& kept, Blobs& blobs
         document["color"].push_back(
             words([&](std::uint32_t f) { return std::bit_cast<std::uint32_t>(columns.fragments[f].color[c]); }));
     return document;
+}
+
+// So that the page does not depend on how it was made.
+PictureRequest with_usual_execution(PictureRequest request) {
+    for (const OptionField& field : option_fields())
+        if (keeps_bits(field.group)) field.copy(request, {});
+    return request;
 }
 
 // The names of the meshes that are peeled, each with the index of its first triangle in submission order.
@@ -238,9 +246,8 @@ class Builder {
         if (inspected_ == nullptr || (algorithm.takes_both_ends && !inspected_->takes_both_ends))
             inspected_ = &algorithm;
         entry["refusal"] = nullptr;
-        entry["stats"] = to_row(
-            {&algorithm, result, pipeline::digest(result.frame.color), ""},
-            {.profile = session_.profile.name, .width = options_.render.width, .height = options_.render.height});
+        entry["stats"] = to_row({&algorithm, result, pipeline::digest(result.frame.color), ""},
+                                {session_.profile.name, with_usual_execution(options_)});
         entry["stats"].erase("seconds");  // so that the same command writes the same bytes
         entry["picture"] =
             picture_of(cropped(result.frame.color, region_), pipeline::digest(result.frame.color), data_.blobs);
