@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Opens the browser's page in headless Chromium and compares it with the program: check_page.py STRATA PAGE_FOLDER
 
-Ten scenes by every algorithm: each digest is the one that `strata render` prints, each refusal has its sentence. Then the test uses the controls: the
+Eleven scenes by every algorithm: each digest is the one that `strata render` prints, each refusal has its sentence. Then the test uses the controls: the
 orbit, the layers, the pixel, a file. STRATA_SCREENSHOTS=FOLDER stores pictures; STRATA_AXE=FILE (axe.min.js of the npm package axe-core) checks
 accessibility; STRATA_MODEL=FILE.glb is dropped onto the page and timed at 512x512. Skips with a message and exit status 77 without Chromium, its
 driver or Selenium.
@@ -25,10 +25,11 @@ SCENES = [
     ("volume-beam:slices=8", {"size": [48, 40]}),
     ("volume-beam:slices=5,order=near", {"size": [40, 40], "profile": "geforce3"}),
     ("random:triangles=300", {"size": [64, 64], "background": [0.25, 0.5, 1]}),
-    ("random:seed=7,triangles=60", {"size": [33, 17], "colour": "linear", "profile": "ideal"}),
+    ("random:seed=7,triangles=60", {"size": [33, 17], "color_space": "linear", "profile": "ideal"}),
     ("planes:count=5", {"size": [32, 32], "orbit": [75, -10]}),
     ("shadow-demo", {"size": [48, 36]}),
     ("showroom", {"size": [64, 64], "profile": "geforce3"}),
+    ("random:triangles=40", {"size": [32, 32], "options": {"samples": 4, "sort": "exact", "clip_depth": "zero-to-one"}}),
     ("hard:case=planes-1-unit", {"size": [40, 30], "profile": "llvmpipe"}),
 ]
 
@@ -36,8 +37,10 @@ SCENES = [
 def options_of(question):
     options = ["--size", "x".join(map(str, question["size"]))]
     for name, value in question.items():
-        if name in ("alpha", "profile", "colour"):
-            options += ["--" + {"colour": "color-space"}.get(name, name), str(value)]
+        if name in ("alpha", "profile", "color_space"):
+            options += ["--" + name.replace("_", "-"), str(value)]
+        if name == "options":
+            options += [word for key, text in value.items() for word in ("--" + key.replace("_", "-"), str(text))]
         if name in ("background", "orbit"):
             options += ["--" + name, ",".join(map(str, value))]
     return options

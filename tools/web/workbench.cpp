@@ -1,13 +1,15 @@
 // tools/web/workbench.cpp - the renderer's interface to the web page: scenes, pictures, layers and histories, as JSON
 // and plain arrays.
 //
-// Rule     A request is a JSON object with the key "do"; its other keys have the names and meanings of the command's
-//          options, so `strata render` with the same options gives the same digest. The answer is an object; if it has
+// Rule     A request is a JSON object with the key "do"; its other keys, and those of its object "options", have the
+//          names and meanings of the command's options (tools/request/option_fields.h), so `strata render` with the
+//          same options gives the same digest. The answer is an object; if it has
 //          the key "error", its value is a message. The arrays of an answer are valid until the next request of the
 //          same kind.
 // Tests    tools/web/test.sh
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <map>
@@ -26,6 +28,8 @@
 #include "scenes/numbers/srgb_encode.h"
 #include "scenes/scene.h"
 #include "tools/oracle/explain/history_report.h"
+#include "tools/request/complete.h"
+#include "tools/request/option_fields.h"
 #include "tools/strata/report/survey.h"
 
 namespace strata::web {
@@ -43,6 +47,8 @@ class Workbench {
 
     [[nodiscard]] Json answer_of(const Json& question);
     void open(const Json& question);
+    void open_scene(const std::string& name, const tools::PictureRequest& request);
+    [[nodiscard]] pipeline::View view_of(const tools::PictureRequest& request) const;
     [[nodiscard]] Json render(const Json& question);
     [[nodiscard]] Json layers(const Json& question);
     [[nodiscard]] Json explain(const Json& question);
@@ -91,6 +97,15 @@ ordered_json lists() {
         document["profiles"].push_back({{"name", p.name}, {"description", p.description}});
     for (const scenes::ProceduralScene& s : scenes::procedural_scenes())
         document["scenes"].push_back({{"name", s.name}, {"parameters", s.parameters}, {"description", s.description}});
+    document["options"] = ordered_json::array();
+    for (const tools::OptionField& f : tools::option_fields())
+        if (!tools::keeps_bits(f.group))
+            document["options"].push_back({{"name", f.key()},
+                                           {"option", f.option()},
+                                           {"type", f.type},
+                                           {"help", f.help},
+                                           {"words", f.is_flag ? std::vector<std::string>{"true", "false"} : f.words},
+                                           {"default", f.text({})}});
     return document;
 }
 
@@ -101,6 +116,36 @@ ordered_json diagnostics_of(const peeling::RenderResult& result) {
     return list;
 }
 
+// The options of a question: its keys that are no words of the question, and those in its object "options".
+tools::PictureRequest request_of(const ordered_json& question) {
+    tools::PictureRequest request;
+    request.render.audit = false;
+    constexpr std::array own{"do", "scene", "algorithm", "profile", "pixel", "options"};
+    const auto take = [&](const std::string& name, const ordered_json& value) {
+        const tools::OptionField* const field = tools::find_option(name);
+        std::vector<std::string> parts;
+        for (const ordered_json& part : value.is_array() ? value : ordered_json::array({value}))
+            parts.push_back(part.is_string() ? part.get<std::string>() : part.dump());
+        const std::string text = field == nullptr ? "" : tools::text_of_parts(*field, parts);
+        tools::set_option(request, name, text, "page");
+    };
+    for (const auto& [name, value] : question.items())
+        if (std::ranges::find(own, name) == own.end()) take(name, value);
+    if (question.contains("options"))
+        for (const auto& [name, value] : question["options"].items()) take(name, value);
+    if (const auto found = tools::option_conflict(request))
+        throw InputError("page", found->option.empty() ? found->sentence : found->option + ": " + found->sentence);
+    request.render.threads = 1;
+    return request;
+}
+
+void check_size(const tools::PictureRequest& request) {
+    const int width = request.render.width, height = request.render.height;
+    if (!request.states_size || width > most_side || height > most_side)
+        throw InputError("page", "size", fmt::format("1 to {} pixels a side", most_side),
+                         request.states_size ? fmt::format("{}x{}", width, height) : "none");
+}
+
 }  // namespace
 
 scenes::Scene Workbench::load(const std::string& name, const scenes::SceneOptions& options) const {
@@ -109,37 +154,38 @@ scenes::Scene Workbench::load(const std::string& name, const scenes::SceneOption
     return scenes::make_procedural(name, options);
 }
 
+// Loads the scene unless it is loaded, with the options that its reading needs.
+void Workbench::open_scene(const std::string& name, const tools::PictureRequest& request) {
+    std::string key = name + " " + tools::find_option("alpha")->text(request);
+    for (const std::string& word : tools::words_of(request, tools::OptionGroup::reading)) key += " " + word;
+    if (key == scene_key_) return;
+    scene_key_.clear();
+    scene_ = load(name, request.scene_options);
+    scene_key_ = key;
+}
+
+pipeline::View Workbench::view_of(const tools::PictureRequest& request) const {
+    const double aspect = double(request.render.width) / request.render.height;
+    for (const scenes::SceneCamera& camera : scene_->cameras)
+        if (camera.name == request.camera) return scenes::camera_view(camera, aspect);
+    if (!request.camera.empty()) throw InputError("page", "camera", "a camera of the scene", request.camera);
+    if (scene_->own_view && !request.orbit) return *scene_->own_view;
+    const tools::Orbit orbit = request.orbit.value_or(tools::Orbit{});
+    return scenes::orbit_view(scene_->bounds, orbit.azimuth, orbit.elevation, aspect);
+}
+
 // Missing keys have the command's defaults.
 void Workbench::open(const Json& question) {
-    const auto scene = question.at("scene").get<std::string>();
-    space_ =
-        question.value("colour", "encoded") == "linear" ? pipeline::ColorSpace::linear : pipeline::ColorSpace::encoded;
-    const std::string key = scene + (space_ == pipeline::ColorSpace::linear ? " linear" : " encoded");
-    if (key != scene_key_) {
-        scene_key_.clear();
-        scene_ = load(scene, {.color_space = space_});
-        scene_key_ = key;
-    }
+    tools::PictureRequest request = request_of(question);
+    check_size(request);
     profile_ = scenes::load_profile(question.value("profile", "geforce8"));
-    options_ = {};
-    const auto [width, height] = question.at("size").get<std::array<int, 2>>();
-    if (width < 1 || height < 1 || width > most_side || height > most_side)
-        throw InputError("page", "size", fmt::format("1 to {} pixels a side", most_side),
-                         fmt::format("{}x{}", width, height));
-    options_.width = width, options_.height = height, options_.threads = 1;
-    if (question.contains("alpha")) options_.alpha = question["alpha"].get<float>();
-    if (question.contains("background")) {
-        const auto b = question["background"].get<std::array<float, 3>>();
-        options_.background = {b[0], b[1], b[2], 1};
-    }
-    options_.background = scenes::from_encoded(options_.background, space_);
-    options_.audit = question.value("audit", false);
-    if (scene_->own_view && !question.contains("orbit")) {
-        view_ = *scene_->own_view;
-    } else {
-        const auto orbit = question.value("orbit", std::array<double, 2>{30, 20});
-        view_ = scenes::orbit_view(scene_->bounds, orbit[0], orbit[1], double(width) / height);
-    }
+    if (request.origin) profile_ = with_origin(profile_, *request.origin);
+    tools::complete(request, profile_);
+    open_scene(question.at("scene").get<std::string>(), request);
+    options_ = request.render;
+    space_ = request.scene_options.color_space;
+    const rasterizer::RasterState& raster = options_.raster;
+    view_ = scenes::with_clip_convention(view_of(request), {}, {raster.clip_depth, raster.depth_order});
 }
 
 Workbench::Json Workbench::render(const Json& question) {
@@ -170,7 +216,7 @@ Workbench::Json Workbench::render(const Json& question) {
 Workbench::Json Workbench::layers(const Json& question) {
     open(question);
     peeling::Renderer renderer{scene_->list, view_, profile_, options_};
-    columns_ = tools::columns_of(renderer.fragments(*peeling::find_algorithm("a_buffer")).all,
+    columns_ = tools::columns_of(renderer.fragments(*peeling::find_algorithm("a_buffer")).of_sample(0).all,
                                  static_cast<std::size_t>(options_.width) * static_cast<std::size_t>(options_.height));
     for (auto& numbers : numbers_) numbers.clear();
     for (auto& values : values_) values.clear();
@@ -191,6 +237,8 @@ Workbench::Json Workbench::explain(const Json& question) {
     open(question);
     const auto [x, y] = question.at("pixel").get<std::array<int, 2>>();
     const oracle::RunInput input{scene_->list, view_, profile_, options_};
+    if (options_.sampling.samples > 1)
+        return {{"text", oracle::to_text(oracle::explain_samples(input, algorithm_of(question), x, y))}};
     return {{"text", oracle::to_text(oracle::explain(input, algorithm_of(question), {x, y, x + 1, y + 1}).at(0))}};
 }
 

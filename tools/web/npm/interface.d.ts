@@ -14,7 +14,9 @@ export interface View {
   /** Azimuth and elevation in degrees; absent: the scene's own camera, else 30 and 20. */
   orbit?: [number, number];
   /** Where colours are blended; default "encoded". */
-  colour?: "encoded" | "linear";
+  color_space?: "encoded" | "linear";
+  /** Further options of the command by their names (`lists().options`): { samples: 4, sort: "exact" }. */
+  options?: Record<string, string | number | boolean | number[]>;
 }
 
 export interface Question extends View {
@@ -65,6 +67,8 @@ export interface Lists {
   algorithms: { name: string; summary: string; paper: string }[];
   profiles: { name: string; description: string }[];
   scenes: { name: string; parameters: string; description: string }[];
+  /** The options of the command on which bits depend; `words` are the values of an option that has few. */
+  options: { name: string; option: string; type: string; help: string; words: string[]; default: string }[];
 }
 
 /** The algorithm needs a feature that the profile lacks; the message names it. */

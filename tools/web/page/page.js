@@ -18,12 +18,35 @@ function question(kind) {
     size: [Number(at("width").value), Number(at("height").value)] };
   if (at("alpha").value !== "") q.alpha = Number(at("alpha").value);
   if (orbit) q.orbit = orbit;
+  q.options = {};
+  for (const field of document.querySelectorAll("#options [name]")) if (field.value !== "") q.options[field.name] = field.value;
   return q;
+}
+
+// The options of the command that have no control of their own.
+const rare = () => lists.options.filter((o) => !["size", "alpha", "orbit", "camera"].includes(o.name));
+function makeOptions() {
+  at("options").append(...rare().map((o) => {
+    const label = Object.assign(document.createElement("label"), { textContent: o.name.replaceAll("_", " ") + " ", title: o.help });
+    const field = Object.assign(document.createElement(o.words.length ? "select" : "input"), { name: o.name });
+    if (o.words.length) field.append(...["", ...o.words].map((word) => Object.assign(document.createElement("option"), { value: word, textContent: word })));
+    else field.placeholder = o.default || o.type;
+    field.addEventListener("change", render);
+    label.append(field);
+    return label;
+  }));
+}
+
+// A flag has no value, and is only given where it changes something.
+function wordsOf(o, value) {
+  if (o.type !== "") return ` ${o.option} ${value}`;
+  return value === o.default ? "" : ` ${o.option}`;
 }
 
 function commandOf(q) {
   return `strata render ${q.scene} --size ${q.size.join("x")} --profile ${q.profile} --algorithm ${q.algorithm}` +
-    (q.alpha !== undefined ? ` --alpha ${q.alpha}` : "") + (q.orbit ? ` --orbit ${q.orbit.join(",")}` : "");
+    (q.alpha !== undefined ? ` --alpha ${q.alpha}` : "") + (q.orbit ? ` --orbit ${q.orbit.join(",")}` : "") +
+    rare().filter((o) => q.options[o.name] !== undefined).map((o) => wordsOf(o, q.options[o.name])).join("");
 }
 
 function paint(canvas, q, of) {
@@ -179,6 +202,7 @@ async function start() {
   at("algorithm").value = "dual";
   at("profile").value = "geforce8";
   tellAlgorithm();
+  makeOptions();
   at("choices").addEventListener("submit", (event) => { event.preventDefault(); orbit = null; render(); });
   at("algorithm").addEventListener("change", () => { tellAlgorithm(); render(); });
   at("profile").addEventListener("change", render);
