@@ -7,14 +7,14 @@
 // Invariant  before a peel, min_max = (-near, far) of the depths that remain, front = the layers nearer than `near`
 //            (alpha = 1 - transmittance), back = the layers beyond `far` over the background.
 // Replay     by default these passes define the result but do not run: in replay execution, on rgba8 and float targets,
-//            peeling/loops/dual_resolve.cpp computes their result from each pixel's sorted fragments. In tests/peeling
+//            peeling/loops/resolve.cpp computes their result from each pixel's sorted fragments. In tests/peeling
 //            execution/execution_test.cpp and sequences/sequences_test.cpp show that bits, passes, queries and trace
-//            are equal. The passes run where dual_resolve.cpp cannot be used (its head states the conditions).
+//            are equal. The passes run where resolve.cpp cannot be used (its head states the conditions).
 #include <algorithm>
 #include <utility>
 
 #include "peeling/algorithms/entry.h"
-#include "peeling/loops/dual_resolve.h"
+#include "peeling/loops/resolve.h"
 #include "peeling/programs/fixed_passes/tail.h"
 #include "peeling/programs/min_max.h"
 

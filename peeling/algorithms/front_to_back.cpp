@@ -5,9 +5,13 @@
 // Passes     N + 1 for N distinct depths: the last one finds nothing. Of equal depths only the first submitted is kept.
 // Invariant  before pass i, `accumulated` = layers 0 .. i-1 composited, alpha = their transmittance,
 //            and `peeled` = the depth of layer i-1.
+// Replay     by default these passes define the result but do not run: in replay execution, on rgba8 and float targets,
+//            peeling/loops/resolve.cpp computes their result from each pixel's sorted fragments. The passes run where
+//            it cannot be used (its head states the conditions).
 #include <utility>
 
 #include "peeling/algorithms/entry.h"
+#include "peeling/loops/resolve.h"
 #include "peeling/programs/fixed_passes/tail.h"
 #include "peeling/programs/layer_target.h"
 #include "peeling/programs/region_programs.h"
@@ -99,6 +103,7 @@ std::vector<Algorithm> entries() {
                       .geometry_passes = every_layer_and_one,
                       .run = run_plain,
                       .run_with = run,
+                      .resolve_loop = front_to_back_resolve,
                       .features = {fragment_programs, separate_alpha_blend}}};
 }
 

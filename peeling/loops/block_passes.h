@@ -1,11 +1,14 @@
-// peeling/loops/block_passes.h - the passes of a dual peel over a block of per-pixel lists: the scalar references of
-// block_passes_simd.cpp.
+// peeling/loops/block_passes.h - the passes of dual peeling and of peeling front to back over a block of per-pixel
+// lists: the scalar references of block_passes_simd.cpp.
 //
-// Rule     Pass i takes depth i of a list from the front and depth i from its back, until they meet. Lists are
+// Rule     Pass i takes depth i of a list from the front and, of dual, depth i from its back, until they meet. Lists
+// are
 //          independent: the scalar reference processes one after another, the vectors process many at once. Dual front:
 //          the UNDER of under_text-inl.h, stored under MAX with the front that other fragments pass through. Dual back:
-//          the code of the far colour, OVER the stored back, where its alpha is not 0.
-// Ties     Fragments of one depth are one group: MAX over the values that each of them would store.
+//          the code of the far colour, OVER the stored back, where its alpha is not 0. Front to back: the stored layer
+//          (c a, a), blended by blend_mode::under.
+// Ties     Dual: fragments of one depth are one group, MAX over the values that each of them would store. Front to
+//          back: the first of them, the others are lost.
 // Tests    tests/peeling/loops/block_passes_test.cpp; tests/peeling/execution/execution_test.cpp
 #pragma once
 #include <algorithm>
@@ -76,6 +79,15 @@ class ColumnPasses {
         }
     }
 
+    // A pass after the last layer blends an empty one, which no further such pass changes.
+    void near_end(Codes& front) const {
+        const std::uint32_t end = block_.visible[lane_];
+        std::uint32_t layers = 0;
+        for (std::uint32_t k = 0; k < end && layers < most_; k = block_.end_of_depth(lane_, k, end), ++layers)
+            blend_under(color_at(block_, lane_, k), front);
+        if (layers < most_) blend_under({}, front);
+    }
+
     [[nodiscard]] bool has_plain_colors() const {
         for (std::uint32_t k = 0; k < block_.visible[lane_]; ++k)
             if (!is_plain(color_at(block_, lane_, k))) return false;
@@ -110,6 +122,16 @@ class ColumnPasses {
             back[c] = target_.add(target_.operand(dump[c]), alpha, target_.operand(back[c]), rest);
     }
 
+    // blend_mode::under of a layer that was stored.
+    void blend_under(const Color& color, Codes& front) const {
+        const float alpha = target_.operand(target_.code(color[3])), through = target_.operand(front[3]);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float layer = target_.operand(target_.code(color[c] * color[3]));
+            front[c] = target_.add(layer, through, target_.operand(front[c]), target_.one);
+        }
+        front[3] = target_.add(alpha, 0.0f, through, target_.rest(alpha));
+    }
+
     const ListBlock& block_;
     std::size_t lane_;
     std::uint32_t most_;
@@ -134,11 +156,21 @@ class ColumnPasses {
     return is_plain;
 }
 
+inline void peel_near_end(const ListBlock& block, BlockCodes& codes, const BlockRules& rules) {
+    pipeline::with_rules(rules.color, [&]<class Rules>(Rules) {
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+            Codes front = list(codes, lane);
+            ColumnPasses<Rules>{block, lane, rules}.near_end(front);
+            put_column(front, lane, codes);
+        }
+    });
+}
+
 template <class Rules>
 void composite(const pipeline::scalar::StoredColor<Rules>& target, const BlockCodes& front, const BlockCodes& back,
-               std::uint32_t* words) noexcept {
+               FrontAlpha meaning, std::uint32_t* words) noexcept {
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-        const float through = let_through(OneFloat{}, target.value(front[3][lane]));
+        const float through = through_front(meaning, target.value(front[3][lane]));
         words[lane] = 0xff000000u;
         for (std::size_t c = 0; c < 3; ++c) {
             const float behind = target.value(back[c][lane]);
@@ -153,6 +185,8 @@ void composite(const pipeline::scalar::StoredColor<Rules>& target, const BlockCo
 // All passes of the block. `front` and `back` contain the initial codes and receive the results. Returns false if MAX
 // does not order the colours; the codes are then unspecified.
 [[nodiscard]] bool peel_both_ends(const ListBlock& block, BlockCodes& front, BlockCodes& back, const BlockRules& rules);
+// The same from the front alone, of any colours.
+void peel_near_end(const ListBlock& block, BlockCodes& front, const BlockRules& rules);
 // The codes of sixteen texels of an rgba8 target, red in the low byte.
 [[nodiscard]] inline BlockCodes codes_of(const std::uint32_t* words) noexcept {
     BlockCodes codes;
@@ -161,6 +195,7 @@ void composite(const pipeline::scalar::StoredColor<Rules>& target, const BlockCo
     return codes;
 }
 // Stores in an rgba8 target the result of a peel's last quad: the front over the colour behind it, alpha 1.
-void composite_block(const BlockCodes& front, const BlockCodes& back, const BlockRules& rules, std::uint32_t* words);
+void composite_block(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, const BlockRules& rules,
+                     std::uint32_t* words);
 
 }  // namespace strata::peeling

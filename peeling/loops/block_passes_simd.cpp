@@ -22,7 +22,7 @@ struct AllLanes {
 
 #include "peeling/programs/under_text-inl.h"
 
-// Some lists of a block, with their front and back during the passes. Dual peeling of lists without ties.
+// Some lists of a block, with their front and back during the passes. Dual peeling is of lists without ties.
 template <class Rules>
 class BlockLists {
   public:
@@ -78,6 +78,30 @@ class BlockLists {
             return hn::AllTrue(Words{}, hn::Eq(hn::Max(bits, bound), bound));
         };
         return is_at_most(most_color, most_plain_color) && is_at_most(most_alpha, 1.0f);
+    }
+
+    // Of tied fragments the first is taken: layers are then counted list by list.
+    HWY_INLINE void near_end(BlockCodes& front_codes, bool has_ties) const {
+        Held front[4];
+        load(front_codes, front);
+        const WordVec most = hn::Set(Words{}, most_);
+        WordVec key_before = hn::Zero(Words{}), layers = has_ties ? key_before : visible_;
+        const std::uint32_t end = has_ties ? block_.height : std::min(block_.height, most_);
+        for (std::uint32_t pass = 0; pass < end; ++pass) {
+            WordVec key;
+            const WordVec index = level(pass, key);
+            WordMask has = hn::Lt(hn::Set(Words{}, pass), visible_);
+            if (has_ties) {
+                if (pass > 0) has = hn::And(has, hn::Ne(key, key_before));
+                has = hn::And(has, hn::Lt(layers, most));
+                layers = hn::Add(layers, hn::IfThenElseZero(has, hn::Set(Words{}, 1)));
+            }
+            key_before = key;
+            blend_under(take(index, has), has, front);
+        }
+        const WordMask all = hn::Eq(visible_, visible_);
+        blend_under(take(visible_, hn::Not(all)), hn::Lt(layers, most), front);
+        store(all, front, 4, front_codes);
     }
 
   private:
@@ -153,6 +177,20 @@ class BlockLists {
         return is_there;
     }
 
+    // As blend_under of the scalar reference. An 8-bit list that has ended takes colour 0, which changes nothing; a
+    // float list keeps its front.
+    HWY_INLINE void blend_under(const Color& color, WordMask has, Held (&front)[4]) const {
+        const FloatVec through = target_.operand(front[3]);
+        const auto kept = [&](Held next, Held old)
+                              HWY_ATTR { return Target::is_float ? choose(has, next, old) : next; };
+        for (std::size_t c = 0; c < 3; ++c) {
+            const FloatVec layer = target_.operand(target_.stored(hn::Mul(color.channel[c], color.channel[3])));
+            front[c] = kept(target_.add(layer, through, target_.operand(front[c]), target_.one()), front[c]);
+        }
+        const FloatVec alpha = target_.operand(target_.stored(color.channel[3]));
+        front[3] = kept(target_.add(alpha, hn::Zero(Floats{}), through, target_.rest(alpha)), front[3]);
+    }
+
     const ListBlock& block_;
     std::size_t lane_;
     std::uint32_t most_;
@@ -170,16 +208,25 @@ bool both_ends(const ListBlock& block, BlockCodes& front, BlockCodes& back, cons
     return is_plain;
 }
 
+void near_end(const ListBlock& block, BlockCodes& front, const BlockRules& rules) {
+    const bool has_ties = block.has_any_tie();
+    pipeline::with_rules(rules.color, [&]<class Rules>(Rules) HWY_ATTR {
+        for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
+            BlockLists<Rules>{block, lane, rules}.near_end(front, has_ties);
+    });
+}
+
 // The blending of peeling/reference/algorithms.md 0.4, with the codes packed into one word per pixel, red in the low
 // byte.
 template <pipeline::UnormRounding to_code>
-void last_quad_by(const BlockCodes& front, const BlockCodes& back, std::uint32_t* words) {
+void last_quad_by(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, std::uint32_t* words) {
     using Target = StoredColors<pipeline::Unorm8Rules<pipeline::BlendRounding::nearest, to_code>>;  // no blending here
     const Words d;
     for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
         const auto value = [lane](const BlockLanes& codes)
                                HWY_ATTR { return Target::value(hn::LoadU(Words{}, &codes[lane])); };
-        const FloatVec through = let_through(AllLanes{}, value(front[3]));
+        const FloatVec alpha = value(front[3]);
+        const FloatVec through = meaning == FrontAlpha::covers ? let_through(AllLanes{}, alpha) : alpha;
         WordVec word = hn::Set(d, 0xff000000u);
         for (std::size_t c = 0; c < 3; ++c) {
             const WordVec code = Target::stored(composited(value(front[c]), through, value(back[c])));
@@ -189,12 +236,13 @@ void last_quad_by(const BlockCodes& front, const BlockCodes& back, std::uint32_t
     }
 }
 
-void last_quad(const BlockCodes& front, const BlockCodes& back, const BlockRules& rules, std::uint32_t* words) {
+void last_quad(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, const BlockRules& rules,
+               std::uint32_t* words) {
     using enum pipeline::UnormRounding;
     switch (rules.color.rounding.unorm) {
-        case half_up: return last_quad_by<half_up>(front, back, words);
-        case product_even: return last_quad_by<product_even>(front, back, words);
-        case product_even_wide: return last_quad_by<product_even_wide>(front, back, words);
+        case half_up: return last_quad_by<half_up>(front, back, meaning, words);
+        case product_even: return last_quad_by<product_even>(front, back, meaning, words);
+        case product_even_wide: return last_quad_by<product_even_wide>(front, back, meaning, words);
     }
 }
 
@@ -206,6 +254,7 @@ HWY_AFTER_NAMESPACE();
 
 namespace strata::peeling {
 STRATA_EXPORT(both_ends);
+STRATA_EXPORT(near_end);
 STRATA_EXPORT(last_quad);
 
 // Lists with ties are rare and left to the scalar reference.
@@ -224,10 +273,16 @@ bool peel_both_ends(const ListBlock& block, BlockCodes& front, BlockCodes& back,
     return is_plain;
 }
 
-void composite_block(const BlockCodes& front, const BlockCodes& back, const BlockRules& rules, std::uint32_t* words) {
-    if (!simd_is_scalar()) return kernel_of(HWY_DISPATCH_TABLE(last_quad))(front, back, rules, words);
+void peel_near_end(const ListBlock& block, BlockCodes& front, const BlockRules& rules) {
+    if (simd_is_scalar()) return scalar::peel_near_end(block, front, rules);
+    kernel_of(HWY_DISPATCH_TABLE(near_end))(block, front, rules);
+}
+
+void composite_block(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, const BlockRules& rules,
+                     std::uint32_t* words) {
+    if (!simd_is_scalar()) return kernel_of(HWY_DISPATCH_TABLE(last_quad))(front, back, meaning, rules, words);
     pipeline::with_rules(rules.color, [&]<class Rules>(Rules) {
-        scalar::composite(pipeline::scalar::StoredColor<Rules>{rules.color}, front, back, words);
+        scalar::composite(pipeline::scalar::StoredColor<Rules>{rules.color}, front, back, meaning, words);
     });
 }
 

@@ -50,8 +50,9 @@ struct ListBlock {
     }
 };
 
-// `surface`: per pixel, the bits of the opaque depth (binary32), indexed from the region's first pixel.
-[[nodiscard]] inline ListBlock block_of(const pipeline::SortedLists& sorted, std::size_t number,
+// `surface`: per pixel, the code of the opaque depth, or its bits (binary32) where the key is a value; indexed from the
+// region's first pixel.
+[[nodiscard]] inline ListBlock block_of(const pipeline::SortedLists& sorted, std::size_t number, pipeline::DepthKey key,
                                         const std::uint32_t* surface,
                                         const pipeline::TileFragments::Color* color) noexcept {
     ListBlock block;
@@ -61,7 +62,9 @@ struct ListBlock {
     block.color = color;
     for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane) {
         const std::size_t pixel = block.first + lane;
-        const std::uint32_t end = rasterizer::ordered_code(std::bit_cast<float>(surface[pixel]));
+        const std::uint32_t end = key == pipeline::DepthKey::shader_z
+                                      ? rasterizer::ordered_code(std::bit_cast<float>(surface[pixel]))
+                                      : surface[pixel];
         block.visible[lane] = sorted.list(pixel).below(end, sorted.count(pixel));
         block.hidden[lane] = sorted.count(pixel) - block.visible[lane];
         block.height = std::max(block.height, block.visible[lane]);

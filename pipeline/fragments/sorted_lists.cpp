@@ -34,11 +34,15 @@ bool SortedLists::sort(const TileFragments& fragments, const SortRequest& reques
     if (!has_order(fragments)) return false;
     const auto admitted = static_cast<std::size_t>(limit / sizeof(std::uint64_t));
     take_room(entries_, admitted);
-    take_room(taken_, admitted);
-    choose(fragments, surface);
+    const bool has_all = request.primitives.empty() && !request.alpha.enabled && surface == nullptr;
+    if (!has_all) {
+        take_room(taken_, admitted);
+        choose(fragments, surface);
+    }
     const auto pixel = fragments.pixel();
     count_.assign(pixels, 0);
-    for (std::size_t index = 0; index < pixel.size(); ++index) count_[pixel[index]] += taken_[index] & 1u;
+    std::uint32_t* const count = count_.data();
+    for (std::size_t index = 0; index < pixel.size(); ++index) count[pixel[index]] += has_all ? 1u : taken_[index] & 1u;
     begin_.assign(1, 0);
     std::uint64_t entries = 0;
     size_ = 0;
@@ -53,7 +57,7 @@ bool SortedLists::sort(const TileFragments& fragments, const SortRequest& reques
         begin_.push_back(static_cast<std::uint32_t>(entries));
     }
     previous_ranges_.assign(pixels, {});
-    distribute_entries(fragments);
+    distribute_entries(fragments, has_all);
     for (std::size_t block = 0; !request.by_submission && block < blocks(); ++block)
         sort_levels(entries_.data() + begin_[block], height(block));
     state_ = State::sorted;
@@ -62,12 +66,12 @@ bool SortedLists::sort(const TileFragments& fragments, const SortRequest& reques
 
 // True if the order of entries is the order of depths.
 bool SortedLists::has_order(const TileFragments& fragments) const {
-    bool has = true;
+    std::uint32_t without = 0;
     if (request_.key == DepthKey::shader_z)
-        for (const float z : fragments.shader_z()) has &= z == z;
-    else
-        for (const std::uint32_t code : fragments.code()) has &= !request_.is_float || code <= 0x7f800000u;
-    return has;
+        for (const float z : fragments.shader_z()) without |= z != z ? 1u : 0u;
+    else if (request_.is_float)
+        for (const std::uint32_t code : fragments.code()) without |= code > 0x7f800000u ? 1u : 0u;
+    return without == 0;
 }
 
 void SortedLists::choose(const TileFragments& fragments, const std::uint32_t* surface) {
@@ -86,23 +90,28 @@ void SortedLists::choose(const TileFragments& fragments, const std::uint32_t* su
     }
 }
 
-// Writes each entry at the end of its pixel's list so far; entries past the end of a list are set to ~0 first.
-void SortedLists::distribute_entries(const TileFragments& fragments) {
+// Writes each entry at the end of its pixel's list so far; then ~0 past the end of every list.
+void SortedLists::distribute_entries(const TileFragments& fragments, bool has_all) {
     entries_.resize(begin_.back());
-    std::ranges::fill(entries_, ~std::uint64_t{0});
-    const auto pixel = fragments.pixel();
-    std::vector<std::uint32_t> next(pixels());
-    for (std::size_t p = 0; p < next.size(); ++p)
-        next[p] = begin_[p / block_lanes] + static_cast<std::uint32_t>(p % block_lanes);
-    const bool is_value = request_.key == DepthKey::shader_z;
-    for (std::size_t index = 0; index < pixel.size(); ++index) {
-        if (taken_[index] == 0) continue;
-        const std::uint32_t key =
-            is_value ? rasterizer::ordered_code(fragments.shader_z()[index]) : fragments.code()[index];
-        std::uint32_t& at = next[pixel[index]];
-        entries_[at] = std::uint64_t{key} << 32 | static_cast<std::uint32_t>(index);
-        at += block_lanes;
-    }
+    std::vector<std::uint32_t> ends(blocks() * block_lanes);
+    for (std::size_t p = 0; p < ends.size(); ++p)
+        ends[p] = begin_[p / block_lanes] + static_cast<std::uint32_t>(p % block_lanes);
+    const auto add_all = [&, entries = entries_.data(), next = ends.data()](auto key_of) {
+        const auto pixel = fragments.pixel();
+        for (std::size_t index = 0; index < pixel.size(); ++index) {
+            if (!has_all && taken_[index] == 0) continue;
+            const std::uint32_t at = next[pixel[index]];
+            entries[at] = std::uint64_t{key_of(index)} << 32 | static_cast<std::uint32_t>(index);
+            next[pixel[index]] = at + block_lanes;
+        }
+    };
+    if (request_.key == DepthKey::shader_z)
+        add_all([z = fragments.shader_z().data()](std::size_t index) { return rasterizer::ordered_code(z[index]); });
+    else
+        add_all([code = fragments.code().data()](std::size_t index) { return code[index]; });
+    for (std::size_t p = 0; p < ends.size(); ++p)
+        for (std::uint32_t at = ends[p]; at < begin_[p / block_lanes + 1]; at += block_lanes)
+            entries_[at] = ~std::uint64_t{0};
 }
 
 }  // namespace strata::pipeline

@@ -100,7 +100,7 @@ class SortedLists {
 
     [[nodiscard]] bool has_order(const TileFragments& fragments) const;
     void choose(const TileFragments& fragments, const std::uint32_t* surface);
-    void distribute_entries(const TileFragments& fragments);
+    void distribute_entries(const TileFragments& fragments, bool has_all);
 
     State state_ = State::empty;
     SortRequest request_;

@@ -199,8 +199,10 @@ TEST_CASE("one renderer bins triangles into the tiles that each algorithm reques
     strata::peeling::Renderer automatic = renderer();
     options.tile_size = 32;
     strata::peeling::Renderer small = renderer();
-    for (const auto& [name, tile_size] :
-         {std::pair{"weighted_average", 128}, {"front_to_back", 32}, {"weighted_average", 128}}) {
+    for (const auto& [name, tile_size] : {std::pair{"weighted_average", 128},
+                                          {"dual_independent", 32},
+                                          {"front_to_back", 64},
+                                          {"weighted_average", 128}}) {
         const auto& algorithm = *strata::peeling::find_algorithm(name);
         const RenderResult found = automatic.render(algorithm), expected = small.render(algorithm);
         CHECK(found.frame.work.tile_size == tile_size);

@@ -49,7 +49,7 @@ TEST_CASE("pictures take 32 bits per channel and per depth") {
 
 // A resolve keeps the picture and no targets of passes. Whether denormals are flushed matters only for denormal depths.
 TEST_CASE("a resolve takes less memory per pixel than the passes that it replaces and also on devices that flush") {
-    for (const char* algorithm : {"dual"}) {
+    for (const char* algorithm : {"dual", "front_to_back"}) {
         RenderOptions options = options_of(1024, 512);
         options.tile_size = 32;
         options.threads = 1;

@@ -44,7 +44,9 @@ TEST_CASE("a run reports its path and why it did not use a faster one") {
     const std::vector<Case> cases{
         {dual, as_is, Path::resolved, ""},
         {dual, fixed, Path::resolved, ""},
-        {front_to_back, as_is, Path::recorded, ""},
+        {front_to_back, as_is, Path::resolved, ""},
+        {front_to_back, layered, Path::recorded, "layers are kept"},
+        {{"geforce8", "front_to_back_ties"}, as_is, Path::recorded, ""},
         {{"geforce3", "depth_units"}, as_is, Path::recorded, ""},
         {{"geforce8", "weighted_average"}, as_is, Path::tiled, ""},
         {{"geforce8", "weighted_average"}, without_memory, Path::tiled, ""},

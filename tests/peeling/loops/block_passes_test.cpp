@@ -114,6 +114,19 @@ struct PassScene {
             for (std::size_t i = 0; i < 3 && dump[3] != 0; ++i) back[i] = machine.over(dump[i], dump[3], back[i]);
         }
     }
+
+    void peel_front_to_back(const BlockRules& rules, std::size_t lane, Codes& front) const {
+        const ColorMachine machine{rules.color};
+        auto all = depths(lane);
+        all.push_back({Color{}});
+        if (all.size() > rules.most_passes) all.resize(rules.most_passes);
+        for (const auto& depth : all) {
+            const Color& c = depth.front();
+            for (std::size_t i = 0; i < 3; ++i)
+                front[i] = machine.under(machine.write(product(c[i], c[3])), front[i], front[3]);
+            front[3] = machine.through(machine.write(c[3]), front[3]);
+        }
+    }
 };
 
 // No limit, or one near the end of the deepest list.
@@ -159,6 +172,37 @@ TEST_CASE(
     }
 }
 
+TEST_CASE(
+    "a block is peeled from the front like its passes by every rule and of any colours on every instruction set") {
+    Random random{93};
+    for (BlockRules rules : all_rules()) {
+        std::uint64_t wrong = 0;
+        for (std::uint32_t depth = 0; depth <= 24; ++depth)
+            for (const bool ties : {false, true})
+                for (const Colors colors : {Colors::plain, Colors::any}) {
+                    rules.most_passes = any_limit(random, depth);
+                    const PassScene scene{random, depth, depth % 3 == 0, ties, rules, colors};
+                    BlockCodes cleared{}, front{};
+                    cleared[3].fill(ColorMachine{rules.color}.write(1.0f));
+                    for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+                        Codes f = scalar::list(cleared, lane);
+                        scene.peel_front_to_back(rules, lane, f);
+                        scalar::put_column(f, lane, front);
+                    }
+                    for (const Simd simd : available_simd()) {
+                        const SimdScope kernels{simd};
+                        BlockCodes f = cleared;
+                        peel_near_end(scene.block, f, rules);
+                        wrong += f == front ? 0 : 1;
+                    }
+                }
+        INFO("type " << static_cast<int>(rules.color.type) << ", half " << static_cast<int>(rules.color.rounding.half)
+                     << ", unorm " << static_cast<int>(rules.color.rounding.unorm) << ", blend "
+                     << static_cast<int>(rules.color.blend) << ", flushes " << rules.color.flushes);
+        CHECK(wrong == 0);
+    }
+}
+
 TEST_CASE("colours that MAX cannot order are reported on float targets at any position on every instruction set") {
     Random random{94};
     const std::array<float, 6> foreign{-0.0f,  -0.5f, 1024.5f, std::nanf(""), std::numeric_limits<float>::infinity(),
@@ -188,18 +232,21 @@ TEST_CASE("the last quad composites a front over what is behind it and leaves co
     for (const BlockRules& rules : all_rules()) {
         if (rules.color.type != ChannelType::unorm8) continue;
         const ColorMachine machine{rules.color};
-        for (int trial = 0; trial < 64; ++trial) {
-            const bool is_empty = trial < 16;
+        for (int trial = 0; trial < 128; ++trial) {
+            const bool is_empty = trial < 32;
+            const FrontAlpha meaning = trial % 2 == 0 ? FrontAlpha::covers : FrontAlpha::lets_through;
             BlockCodes front{}, back{};
             BlockLanes expected;
             for (std::size_t lane = 0; lane < block_lanes; ++lane) {
                 expected[lane] = 0xff000000u;
                 for (std::size_t c = 0; c < 4; ++c) {
                     const auto code = static_cast<std::uint32_t>(random_int(random, 0, 255));
-                    front[c][lane] = is_empty ? 0u : code;
-                    back[c][lane] = static_cast<std::uint32_t>(trial % 16) * 16 + static_cast<std::uint32_t>(lane);
+                    const std::uint32_t empty = c == 3 && meaning == FrontAlpha::lets_through ? 255u : 0u;
+                    front[c][lane] = is_empty ? empty : code;
+                    back[c][lane] = static_cast<std::uint32_t>(trial / 2 % 16) * 16 + static_cast<std::uint32_t>(lane);
                 }
-                const float through = sum(1, -machine.read(front[3][lane]));
+                const float alpha = machine.read(front[3][lane]);
+                const float through = meaning == FrontAlpha::covers ? sum(1, -alpha) : alpha;
                 for (std::size_t c = 0; c < 3; ++c) {
                     const float behind = product(through, machine.read(back[c][lane]));
                     const std::uint32_t code =
@@ -210,7 +257,7 @@ TEST_CASE("the last quad composites a front over what is behind it and leaves co
             for (const Simd simd : available_simd()) {
                 const SimdScope kernels{simd};
                 BlockLanes words{};
-                composite_block(front, back, rules, words.data());
+                composite_block(front, back, meaning, rules, words.data());
                 wrong += words == expected ? 0 : 1;
             }
         }

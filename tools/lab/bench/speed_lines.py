@@ -12,7 +12,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 MOST = 6500
 GROUPS = {
-    "dual to its end at once": ["peeling/loops/block_passes*", "peeling/loops/list_block.h", "peeling/loops/dual_resolve.*"],
+    "peels to their end at once": ["peeling/loops/block_passes*", "peeling/loops/list_block.h", "peeling/loops/resolve.*"],
     "the record of a tile's fragments": [
         "pipeline/fragments/tile_fragments.*", "pipeline/fragments/record_rows*", "pipeline/region/region_source.cpp", "pipeline/fragments/tile_parts.*"],
     "passes visit what they keep": [
