@@ -36,6 +36,11 @@ struct DualTiesPeel {
     PeelEnd near{region, Side::front}, far{region, Side::back};
 };
 
+// Fragments that are not selected write what MAX and the counts ignore.
+FragmentSelection ends_of(const DualTiesPeel& p) {
+    return ends_between({}, p.min_max, p.region.opaque_depth(), Outside::writes_alike);
+}
+
 // Counts the fragments that are left at each end, and finds the least and the greatest number of their triangles. Where
 // both ends have one depth, it is the end at which the group was begun, or the near one.
 void count_ties(const DualTiesPeel& p) {
@@ -44,6 +49,7 @@ void count_ties(const DualTiesPeel& p) {
     state.blend = {extremes_and_count, extremes_and_count};
     state.reads = {p.min_max, p.near.ties, p.far.ties, p.region.opaque_depth()};
     state.needs = depth_only;
+    state.selection = ends_of(p);
     p.region.clear(p.near.next_ties, no_ties), p.region.clear(p.far.next_ties, no_ties);
     static_cast<void>(p.region.draw(state, [](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
@@ -66,6 +72,7 @@ void take_four(DualTiesPeel& p) {
     for (std::size_t t = 0; t < 5; ++t) state.blend[t] = blend_mode::max;
     state.reads = {p.min_max, p.near.next_ties, p.far.next_ties, p.region.opaque_depth()};
     state.needs.code = false;
+    state.selection = ends_of(p);
     p.region.clear(p.next_min_max, empty_min_max);
     for (std::size_t t = 1; t < 5; ++t) p.region.clear(state.color[t], {});
     static_cast<void>(p.region.draw(state, [&p](const FragmentBatch& in, const Loads& loads, Outputs& out) {

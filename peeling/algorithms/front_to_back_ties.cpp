@@ -32,6 +32,15 @@ struct TiesPeel {
     GroupTrace trace{region, Side::front};
 };
 
+// Selects the fragments at the depth being peeled and the next one behind it; without `nearest` those at the first
+// depth. Others write what MAX and the count ignore.
+FragmentSelection group_at(const TiesPeel& p, Target nearest) {
+    return {.keeps = KeptFragments::group,
+            .outside = Outside::writes_alike,
+            .far = {KeyBound::beyond(p.region.opaque_depth())},
+            .range = nearest};
+}
+
 void find_nearest(const TiesPeel& p) {
     p.region.clear(p.nearest, none);
     PassState state;
@@ -39,6 +48,7 @@ void find_nearest(const TiesPeel& p) {
     state.blend[0] = blend_mode::max;
     state.reads[0] = p.region.opaque_depth();
     state.needs = depth_only;
+    state.selection = group_at(p, {});
     static_cast<void>(p.region.draw(state, [](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i)
             out.color[0][0][i] = is_visible(in, i, loads.depth(0)) ? 0.0f - in.shader_z[i] : -1.0f;
@@ -53,6 +63,7 @@ void count_ties(const TiesPeel& p) {
     state.blend[0] = extremes_and_count;
     state.reads = {p.nearest, p.ties, p.region.opaque_depth()};
     state.needs = depth_only;
+    state.selection = group_at(p, p.nearest);
     static_cast<void>(p.region.draw(state, [](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
             const bool is_here = is_visible(in, i, loads.depth(2)) && in.shader_z[i] == 0.0f - loads.color(0)[0][i];
@@ -71,6 +82,7 @@ void take_two(TiesPeel& p) {
     state.blend = {blend_mode::max, blend_mode::max, blend_mode::max};
     state.reads = {p.nearest, p.next_ties, p.region.opaque_depth()};
     state.needs.code = false;
+    state.selection = group_at(p, p.nearest);
     static_cast<void>(p.region.draw(state, [&p](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         const ColorLanes& ties = loads.color(1);
         for (std::size_t i = 0; i < lanes(in); ++i) {

@@ -2,6 +2,7 @@
 #include "pipeline/fragments/find_fragments.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace strata::pipeline {
@@ -26,14 +27,15 @@ struct KeyRange {
     std::uint64_t low, high;
 };
 
-KeyRange keys_at(const KeyIntervals& intervals, std::size_t pixel) {
+[[gnu::always_inline]] inline KeyRange keys_at(const KeyIntervals& intervals, std::size_t pixel) {
     KeyRange keys{intervals.least, intervals.end};
     if (intervals.near.exists()) keys.low = std::max(keys.low, intervals.near.first_behind(pixel));
     for (const BoundPlane& far : intervals.far)
         if (far.exists()) keys.high = std::min(keys.high, far.end_before(pixel));
     if (intervals.range_near == nullptr) return keys;
     const float near = -std::bit_cast<float>(intervals.range_near[pixel]);
-    const float far = std::bit_cast<float>(intervals.range_far[pixel]);
+    const float far = intervals.range_far != nullptr ? std::bit_cast<float>(intervals.range_far[pixel])
+                                                     : std::numeric_limits<float>::infinity();
     if (!(near <= far)) return {0, 0};
     return {std::max<std::uint64_t>(keys.low, rasterizer::ordered_code(near)),
             std::min(keys.high, std::uint64_t{rasterizer::ordered_code(far)} + 1)};
@@ -141,6 +143,19 @@ void find_ends(SortedLists& sorted, const KeyIntervals& intervals, bool one_outs
         for (std::uint32_t k = far_begin + 1; k < last; ++k) waves.add(tied++, pixel, list[k]);
         if (one_outside && near_end == last && last - first < list.size())
             waves.add(1, pixel, list[first > 0 ? 0 : last]);
+    });
+}
+
+// A wave is an entry of a group, in submission order; the entry behind the group is in the next one.
+void find_groups(SortedLists& sorted, const KeyIntervals& intervals, FragmentWaves& waves) {
+    for_each_list(sorted, [&](std::size_t pixel, const List& list) {
+        const KeyRange keys = keys_at(intervals, pixel);
+        const std::uint32_t first = first_from(sorted, pixel, list, keys.low);
+        bool is_group = true;
+        for (std::uint32_t k = first; is_group && k < list.size() && key_of(list[k]) < keys.high; ++k) {
+            is_group = key_of(list[k]) == key_of(list[first]);
+            waves.add(k - first, pixel, list[k]);
+        }
     });
 }
 

@@ -63,7 +63,8 @@ class BoundPlane {
 struct KeyIntervals {
     BoundPlane near{};
     std::array<BoundPlane, 2> far{};
-    const std::uint32_t *range_near = nullptr, *range_far = nullptr;  // binary32: keys from -near to far, both included
+    // Binary32: keys from -near to far, both included; without `range_far` to the last.
+    const std::uint32_t *range_near = nullptr, *range_far = nullptr;
     std::uint64_t least = 0, end = std::uint64_t{1} << 32;
 };
 
@@ -90,6 +91,8 @@ void find_nearest_behind(SortedLists& sorted, const TileFragments& fragments, co
 // Adds the fragments with the first and with the last key of each interval, and the nearest and the farthest fragment
 // between. With `one_outside` also one fragment from outside, if the interval contains only the first key or is empty.
 void find_ends(SortedLists& sorted, const KeyIntervals& intervals, bool one_outside, FragmentWaves& waves);
+// Adds the fragments with the first key of each interval, and the first one behind them.
+void find_groups(SortedLists& sorted, const KeyIntervals& intervals, FragmentWaves& waves);
 // find_ends for an interval of compared depths instead of keys.
 void find_ends_compared(SortedLists& sorted, const TileFragments& fragments, const DepthCompare& compare,
                         const KeyIntervals& intervals, bool one_outside, FragmentWaves& waves);

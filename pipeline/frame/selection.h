@@ -3,8 +3,9 @@
 // Rule     A selection is a promise about the pass's own state and program. At every pixel the *interval* is a range of
 //          keys (Frame::key) between bounds stored in targets when the pass begins, and the pass keeps some fragments
 //          of the interval. The others leave every target unchanged: those of the interval because the kept ones alone
-//          decide the result, those outside because they die or write the stored values. The program does not use
-//          primitive indices, and tallies nothing outside. `Instruments::check_selections` also visits every fragment
+//          decide the result, those outside because they die or write the stored values. The program tallies nothing
+//          outside, and uses primitive indices only where the pass keeps all ties at the depths that it takes (`group`,
+//          `ends`, `interval`). `Instruments::check_selections` also visits every fragment
 //          and compares.
 // Source   pipeline/reference/execution.md 7.1.
 // Tests    tests/peeling/execution/selection_test.cpp, execution_test.cpp
@@ -22,6 +23,7 @@ namespace strata::pipeline {
 enum class KeptFragments : std::uint8_t {
     everything,  // no selection: every fragment is visited
     nearest,     // the first submitted with the least key: for a depth test LESS with a write, no blending, no stencil
+    group,       // all with the first key, and the first behind them: for MAX of -z
     interval,    // all of the interval, in submission order, for any tests
     ends,        // the first and last key with ties, and the nearest and farthest between: for MAX of (-z, z)
     submitted    // from index `first_submitted` of the interval on, in submission order, one per sample: for a stencil
@@ -47,9 +49,9 @@ struct KeyBound {
 struct FragmentSelection {
     KeptFragments keeps = KeptFragments::everything;
     Outside outside = Outside::dies;
-    KeyBound near{};                      // keys greater than this
-    std::array<KeyBound, 2> far{};        // keys less than each of these
-    Target range{};                       // float target: keys from minus its red to its green, both included
+    KeyBound near{};                // keys greater than this
+    std::array<KeyBound, 2> far{};  // keys less than each of these
+    Target range{};                 // float target: keys from minus its red to its green, if it has one, both included
     std::uint32_t least = 0, most = ~0u;  // bounds of keys, both included
     std::uint32_t first_submitted = 0;
     // For nearest and ends: if set, `near` or `range` bounds the depth that this compares instead of the key.

@@ -39,6 +39,7 @@ bool has_tests_of_its_kind(const PassState& state, int samples) {
         case KeptFragments::nearest:
             return is_plain && !state.ordered_rmw && state.depth == leaves_the_nearest &&
                    std::ranges::none_of(state.blend, &Blend::enabled);
+        case KeptFragments::group:
         case KeptFragments::ends: return is_untested && !state.ordered_rmw;
         case KeptFragments::interval: return state.selection.outside == Outside::dies || is_untested;
         case KeptFragments::submitted: return routes_submitted(state);
@@ -75,7 +76,8 @@ bool FragmentSource::find_fragments(const PassState& state, const PreparedDraw& 
     kept.texcoord = state.needs.texcoord;
     kept.units = state.needs.units;
     if (!record(list, kept) || !sort_for(state)) return false;
-    const bool has_order = selection.keeps == KeptFragments::ends || selection.outside == Outside::writes_alike;
+    const bool has_order = selection.keeps == KeptFragments::ends || selection.keeps == KeptFragments::group ||
+                           selection.outside == Outside::writes_alike;
     const bool is_float = std::ranges::any_of(
         state.color, [&](Target t) { return t.exists() && info(targets_.at(t).format()).type != ChannelType::unorm8; });
     if (has_order && is_float && state.needs.color && !shared_.scratch.fragments.has_plain_colors()) return false;
@@ -124,7 +126,8 @@ KeyIntervals FragmentSource::intervals_of(const FragmentSelection& s) const {
                            .end = std::uint64_t{s.most} + 1};
     if (s.range.exists()) {
         intervals.range_near = targets_.at(s.range).texels(0).plane(0).words;
-        intervals.range_far = targets_.at(s.range).texels(0).plane(1).words;
+        const bool has_far = info(targets_.at(s.range).format()).channels > 1;
+        intervals.range_far = has_far ? targets_.at(s.range).texels(0).plane(1).words : nullptr;
     }
     return intervals;
 }
@@ -145,6 +148,7 @@ bool FragmentSource::find_kept(const PassState& state) {
             else
                 find_nearest(s.sorted, intervals, stored, s.waves);
             return true;
+        case KeptFragments::group: find_groups(s.sorted, intervals, s.waves); return true;
         case KeptFragments::interval: return find_intervals(s.sorted, intervals, s.waves);
         case KeptFragments::ends:
             if (selection.compared && selection.range.exists())

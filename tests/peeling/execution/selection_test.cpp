@@ -244,3 +244,23 @@ TEST_CASE("the number of fragments that a peel visits grows with its layers and 
             CHECK(visited(std::uint64_t{1} << 20) == in_much);
         }
 }
+
+TEST_CASE("peels that count ties visit a few fragments for each that they take, and a depth's at most once a pass",
+          "[slow]") {
+    for (const char* algorithm : {"front_to_back_ties", "dual_ties"})
+        for (const std::uint32_t tied : {1u, 2u, 5u})
+            for (const std::uint32_t layers : {20u, 100u}) {
+                FragmentScene scene = deep_scene(layers);
+                for (auto& pixel : scene.pixels)
+                    for (std::uint32_t k = 0; k < layers * (tied - 1); ++k)
+                        pixel.fragments.push_back(pixel.fragments[k % layers]);
+                RenderOptions options = options_for(scene);
+                options.tile_size = 8;
+                options.audit = false;
+                INFO(algorithm << ", " << layers << " depths of " << tied << " fragments");
+                const std::uint64_t fragments = std::uint64_t{layers} * tied * scene.pixels.size();
+                const std::uint64_t visited = render(scene, {"geforce8", algorithm}, options).frame.work.visited;
+                CHECK(visited >= 2 * fragments);
+                CHECK(visited <= (tied + 4) * fragments + 8 * scene.pixels.size());
+            }
+}

@@ -305,6 +305,40 @@ TEST_CASE("for a range of depths both ends and their neighbours are visited") {
     CHECK(alone > 50);
 }
 
+TEST_CASE("a group has all fragments of an interval's first depth in submission order, and the first one behind them") {
+    Random random{2327};
+    std::uint64_t wrong = 0, tied = 0, behind = 0;
+    for (int round = 0; round < 60; ++round) {
+        Tile tile{random, {.key = DepthKey::shader_z}};
+        const Ranges ranges{random, tile};
+        KeyIntervals intervals = ranges.intervals();
+        intervals.range_far = nullptr;
+        if (round % 4 == 0) intervals.range_near = nullptr;
+        for (int pass = 0; pass < 2; ++pass) {  // the second search starts where the first one found its group
+            FragmentWaves waves;
+            find_groups(tile.sorted, intervals, waves);
+            auto found = visited(waves);
+            for (std::uint32_t p = 0; p < pixels; ++p) {
+                const float near = round % 4 == 0 ? -2.0f : -std::bit_cast<float>(ranges.near[p]);
+                auto inside = tile.indices(p, [&](const Fragment& f) {
+                    return f.shader_z >= near && f.shader_z < std::bit_cast<float>(ranges.surface[p]);
+                });
+                const auto z = [&](std::uint32_t k) { return tile.given.living[k].shader_z; };
+                std::ranges::stable_sort(inside, {}, z);
+                std::size_t end = 0;
+                while (end < inside.size() && z(inside[end]) == z(inside[0])) ++end;
+                tied += end > 1 ? 1 : 0;
+                behind += end < inside.size() ? 1 : 0;
+                inside.resize(std::min(inside.size(), end + 1));
+                wrong += found[p] == inside ? 0 : 1;
+            }
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(tied > 50);
+    CHECK(behind > 50);
+}
+
 TEST_CASE("for a range of compared depths the ends are those that reach it within an epsilon") {
     Random random{2326};
     std::uint64_t wrong = 0;
