@@ -72,10 +72,9 @@ struct Rehearsal {
 
 // Renders the frame at the size of one tile. Whether it is tiled follows from the full frame's execution, because a
 // whole frame needs other targets than a tile.
-Rehearsal rehearse(const DrawList& list, const View& view, const DeviceProfile& profile, const RenderOptions& options,
-                   const Algorithm& algorithm) {
+Rehearsal rehearse(const FrameRequest& request, const Algorithm& algorithm) {
     Rehearsal found;
-    RenderOptions small = options;
+    RenderOptions small = request.options;
     small.width = small.height = side_px;
     small.window_origin = {0, 0};
     small.tile_size = side_px;
@@ -83,12 +82,12 @@ Rehearsal rehearse(const DrawList& list, const View& view, const DeviceProfile& 
     small.audit = false;
     Coverage coverage;
     Algorithm watched = algorithm;
-    watched.body = [&, body = body_of(algorithm, {options.algorithm, {}})](Region& region) {
+    watched.body = [&, body = body_of(algorithm, {request.options.algorithm, {}})](Region& region) {
         body(region);
         found.target_words = std::max(found.target_words, RegionShortcuts{region}.target_words());
         coverage.put(region);
     };
-    Renderer renderer{list, view, profile, small};
+    Renderer renderer{request.with(small)};
     const RenderResult result = renderer.render(watched);
     found.is_refused = result.outcome == Outcome::refused;
     found.is_tiled = result.frame.work.tile_size != 0;
@@ -110,9 +109,9 @@ std::uint64_t fragment_bytes(const Rehearsal& found, std::uint64_t pixels, std::
 
 }  // namespace
 
-MemoryNeed memory_need(const DrawList& list, const View& view, const DeviceProfile& profile,
-                       const RenderOptions& options, const Algorithm& algorithm) {
-    const Rehearsal found = rehearse(list, view, profile, options, algorithm);
+MemoryNeed memory_need(const FrameRequest& request, const Algorithm& algorithm) {
+    const RenderOptions& options = request.options;
+    const Rehearsal found = rehearse(request, algorithm);
     MemoryNeed need;
     if (found.is_refused) return need;
     const auto samples = static_cast<std::uint64_t>(options.sampling.samples);
@@ -140,8 +139,8 @@ MemoryNeed memory_need(const DrawList& list, const View& view, const DeviceProfi
     if (options.audit) need.fragments += kept(audited_bytes, list_limit);
     if (algorithm.is_oracle) need.fragments += kept(listed_bytes, list_limit);
     if (found.is_replayed) need.fragments += kept(captured_bytes, options.fragment_memory);
-    for (const Instance& instance : list.instances) {
-        const Mesh& mesh = list.meshes[instance.mesh];
+    for (const Instance& instance : request.list.instances) {
+        const Mesh& mesh = request.list.meshes[instance.mesh];
         need.triangles += mesh.positions.size() * vertex_bytes + mesh.indices.size() / 3 * triangle_bytes;
     }
     need.triangles *= samples;

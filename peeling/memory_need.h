@@ -9,18 +9,10 @@
 #pragma once
 #include <cstdint>
 
-#include "peeling/multisampling.h"
-
-namespace strata::pipeline {
-struct DrawList;
-struct View;
-struct DeviceProfile;
-}  // namespace strata::pipeline
-
 namespace strata::peeling {
 
 struct Algorithm;
-struct RenderOptions;
+struct FrameRequest;
 
 struct MemoryNeed {  // in bytes
     std::uint64_t pictures = 0, targets = 0, layers = 0, fragments = 0, triangles = 0;
@@ -31,8 +23,6 @@ struct MemoryNeed {  // in bytes
 // The memory that Renderer::render needs for these arguments in addition to the list itself; all 0 if the
 // profile rejects the frame. The lists of every sample are kept, but only one image of a sample and the sum; of samples
 // that load one another, the frames exist together. Throws InputError as Renderer does.
-[[nodiscard]] MemoryNeed memory_need(const pipeline::DrawList& list, const pipeline::View& view,
-                                     const pipeline::DeviceProfile& profile, const RenderOptions& options,
-                                     const Algorithm& algorithm);
+[[nodiscard]] MemoryNeed memory_need(const FrameRequest& request, const Algorithm& algorithm);
 
 }  // namespace strata::peeling

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "peeling/audit/audit_result.h"
+#include "peeling/frame_request.h"
 #include "peeling/registry.h"
-#include "peeling/render_options.h"
 #include "pipeline/frame/captured_fragment.h"
 #include "pipeline/frame/frame_result.h"
 #include "pipeline/frame/instruments.h"
@@ -23,11 +23,6 @@
 namespace strata::rasterizer {
 struct SetupCounters;
 }
-namespace strata::pipeline {
-struct DrawList;
-struct View;
-}  // namespace strata::pipeline
-
 namespace strata::peeling {
 
 struct RegionTrace;  // peeling/audit/region_trace.h
@@ -62,9 +57,11 @@ struct FrameFragments {
 class Renderer {
   public:
     // Throws InputError, which names the field, for options that are invalid on every profile and for a list whose
-    // parts are inconsistent. `list` must outlive the renderer.
+    // parts are inconsistent. The list must outlive the renderer.
+    explicit Renderer(const FrameRequest& request);
     Renderer(const pipeline::DrawList& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
-             const RenderOptions& options);
+             const RenderOptions& options)
+        : Renderer(FrameRequest{list, view, profile, options}) {}
     Renderer(pipeline::DrawList&& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
              const RenderOptions& options) = delete;  // a temporary list would dangle
     ~Renderer();

@@ -18,29 +18,18 @@ using namespace pipeline;
 
 namespace {
 
-// The scene and device of a measurement.
-struct HazardInput {
-    const DrawList& list;
-    const View& view;
-    const DeviceProfile& profile;
-    const RenderOptions& options;
-    const Algorithm& algorithm;
-
-    [[nodiscard]] std::size_t samples() const noexcept { return static_cast<std::size_t>(options.sampling.samples); }
-
-    [[nodiscard]] FrameFragments fragments(rasterizer::Interpolation interpolation) const {
-        RenderOptions at = options;
-        at.raster.interpolation = interpolation;
-        Renderer renderer{list, view, profile, at};
-        return keyed(renderer.fragments(algorithm), algorithm.key);
-    }
-};
+FrameFragments fragments_of(const FrameRequest& request, const Algorithm& algorithm,
+                            rasterizer::Interpolation interpolation) {
+    RenderOptions at = request.options;
+    at.raster.interpolation = interpolation;
+    return keyed(Renderer{request.with(at)}.fragments(algorithm), algorithm.key);
+}
 
 // The visible fragments of each sample: layer and key, sorted by pixel.
-std::vector<std::vector<LayerFragment>> layers_of(const HazardInput& input) {
-    const FrameFragments true_ones = input.fragments(rasterizer::Interpolation::sample);
-    const FrameFragments drawn_ones = input.fragments(input.options.raster.interpolation);
-    std::vector<std::vector<LayerFragment>> all(input.samples());
+std::vector<std::vector<LayerFragment>> layers_of(const FrameRequest& request, const Algorithm& algorithm) {
+    const FrameFragments true_ones = fragments_of(request, algorithm, rasterizer::Interpolation::sample);
+    const FrameFragments drawn_ones = fragments_of(request, algorithm, request.options.raster.interpolation);
+    std::vector<std::vector<LayerFragment>> all(static_cast<std::size_t>(request.options.sampling.samples));
     for (std::size_t sample = 0; sample < all.size(); ++sample) {
         const FrameFragments truth = true_ones.of_sample(sample), drawn = drawn_ones.of_sample(sample);
         for (const PathPair& pair : pair_up(truth.all, drawn.all).pairs)
@@ -126,9 +115,8 @@ std::uint64_t misplaced(std::span<const LayerFragment> pixel, const std::vector<
 }
 
 // The part of one sample: counts, and the pixels where something is wrong.
-std::vector<bool> add_sample(SampleHazard& hazard, const HazardInput& input, const std::vector<LayerFragment>& layers,
-                             const std::vector<RegionTrace>& traces) {
-    const RenderOptions& options = input.options;
+std::vector<bool> add_sample(SampleHazard& hazard, const RenderOptions& options,
+                             const std::vector<LayerFragment>& layers, const std::vector<RegionTrace>& traces) {
     const PeelErrors errors = peel_errors(layers, traces, options.width, options.height);
     const auto sequences = sequences_of(traces, options);
     std::vector<bool> wrong(errors.map.size());
@@ -165,28 +153,26 @@ std::uint64_t program_count(const std::vector<Primitives>& samples, bool is_once
 
 }  // namespace
 
-std::vector<SampleEdge> sample_edges(const DrawList& list, const View& view, const DeviceProfile& profile,
-                                     const RenderOptions& options, const Algorithm& algorithm) {
-    const HazardInput input{list, view, profile, options, algorithm};
+std::vector<SampleEdge> sample_edges(const FrameRequest& request, const Algorithm& algorithm) {
+    const RenderOptions& options = request.options;
     const std::size_t pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
     std::vector<Primitives> primitives;
-    for (const std::vector<LayerFragment>& layers : layers_of(input))
+    for (const std::vector<LayerFragment>& layers : layers_of(request, algorithm))
         primitives.push_back(primitives_of(layers, pixels));
     std::vector<SampleEdge> edges(pixels);
     for (std::size_t p = 0; p < pixels; ++p) edges[p] = edge_of(primitives, p);
     return edges;
 }
 
-SampleHazard measure_samples(const DrawList& list, const View& view, const DeviceProfile& profile,
-                             const RenderOptions& options, const Algorithm& algorithm) {
-    const HazardInput input{list, view, profile, options, algorithm};
+SampleHazard measure_samples(const FrameRequest& request, const Algorithm& algorithm) {
+    const RenderOptions& options = request.options;
     SampleHazard hazard;
     if (options.sampling.loads_others() && algorithm.traces_own_targets) {
         hazard.refusal = Refusal{"layer counts when it loads another sample", "",
                                  "use dual_independent, which compares in the same way", algorithm.name};
         return hazard;
     }
-    Renderer renderer{list, view, profile, options};
+    Renderer renderer{request};
     std::vector<RegionTrace> traces;
     RenderResult result = renderer.render_traced(algorithm, traces);
     hazard.refusal = result.refusal;
@@ -197,10 +183,10 @@ SampleHazard measure_samples(const DrawList& list, const View& view, const Devic
     std::vector<std::vector<bool>> wrong;
     const std::size_t pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
     int limit = 0;
-    const std::vector<std::vector<LayerFragment>> layers = layers_of(input);
+    const std::vector<std::vector<LayerFragment>> layers = layers_of(request, algorithm);
     for (std::size_t s = 0; s < layers.size(); ++s) {
         primitives.push_back(primitives_of(layers[s], pixels));
-        wrong.push_back(add_sample(hazard, input, layers[s], without_ties(traces_of(traces, s))));
+        wrong.push_back(add_sample(hazard, options, layers[s], without_ties(traces_of(traces, s))));
         for (const auto& pixel : primitives.back()) limit = std::max(limit, 2 * static_cast<int>(pixel.size()) + 2);
     }
     for (std::size_t p = 0; p < pixels; ++p) {

@@ -9,7 +9,6 @@
 // Tests    tests/peeling/frame/sample_hazard_test.cpp
 #pragma once
 #include "peeling/render.h"
-#include "peeling/render_options.h"
 #include "pipeline/device/check.h"
 #include "pipeline/formats/image.h"
 
@@ -31,13 +30,9 @@ struct SampleHazard {
 
 // The options say how many samples a pixel has and where programs are evaluated (RasterState::interpolation). All
 // fragments and traces are held in memory, so frames should be of modest size.
-[[nodiscard]] SampleHazard measure_samples(const pipeline::DrawList& list, const pipeline::View& view,
-                                           const pipeline::DeviceProfile& profile, const RenderOptions& options,
-                                           const Algorithm& algorithm);
+[[nodiscard]] SampleHazard measure_samples(const FrameRequest& request, const Algorithm& algorithm);
 
 // The kind of every pixel, row by row from the top.
-[[nodiscard]] std::vector<SampleEdge> sample_edges(const pipeline::DrawList& list, const pipeline::View& view,
-                                                   const pipeline::DeviceProfile& profile, const RenderOptions& options,
-                                                   const Algorithm& algorithm);
+[[nodiscard]] std::vector<SampleEdge> sample_edges(const FrameRequest& request, const Algorithm& algorithm);
 
 }  // namespace strata::peeling

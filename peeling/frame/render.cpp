@@ -138,8 +138,9 @@ struct Renderer::State {
     }
 };
 
-Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& profile, const RenderOptions& options) {
-    state_ = std::unique_ptr<State>(new State{set_up_frames(list, view, profile, options)});
+Renderer::Renderer(const FrameRequest& request) {
+    state_ =
+        std::unique_ptr<State>(new State{set_up_frames(request.list, request.view, request.profile, request.options)});
 }
 
 Renderer::~Renderer() = default;

@@ -24,8 +24,8 @@ void check_pixel(int x, int y, const RenderOptions& options) {
     within("y", y, options.height);
 }
 
-oracle::RunInput input_of(const Scene& scene, const View& view, const DeviceProfile& profile,
-                          const RenderOptions& options) {
+peeling::FrameRequest input_of(const Scene& scene, const View& view, const DeviceProfile& profile,
+                               const RenderOptions& options) {
     return {scene.list(), view, profile, options};
 }
 

@@ -58,7 +58,7 @@ oracle::Golden golden_of(RunOptions& options, const std::function<void(double sh
     golden.scene.own_view = session.view;
     peeling::RenderOptions tried = golden.options;
     tried.audit = false;
-    peeling::Renderer renderer{golden.scene.list, session.view, golden.profile, tried};
+    peeling::Renderer renderer{golden.request().with(tried)};
     for (std::size_t i = 0; i < options.algorithms.size(); ++i) {
         progress(static_cast<double>(i) / static_cast<double>(options.algorithms.size()));
         const peeling::Algorithm* const algorithm = options.algorithms[i];

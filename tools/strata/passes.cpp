@@ -95,7 +95,7 @@ void show(const RunOptions& options, const Session& session, const peeling::Algo
                  {"query"}},
                 {}};
     oracle::ContactSheet sheet;
-    const oracle::RunInput input{session.scene.list, session.view, session.profile, options.render};
+    const peeling::FrameRequest input = session.request(options.render);
     oracle::passes(input, algorithm, [&](oracle::PassReport&& pass) {
         const std::string name = fmt::format("pass.{:03}.exr", pass.number);
         oracle::write_targets(path(name), pass.targets);

@@ -26,7 +26,7 @@ MemoryNeed need_of(const char* algorithm, const RenderOptions& options, const ch
     static const DrawList list = six_layers();
     RenderOptions sampled = options;
     sampled.sampling.samples = samples;
-    return memory_need(list, {}, *find_profile(profile), sampled, *find_algorithm(algorithm));
+    return memory_need({list, {}, *find_profile(profile), sampled}, *find_algorithm(algorithm));
 }
 
 RenderOptions options_of(int columns, int rows) {

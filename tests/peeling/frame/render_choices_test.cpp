@@ -207,8 +207,8 @@ TEST_CASE("the predicted memory of an algorithm with captured values is that of 
     options.keep_layers = true;
     for (const bool keeps : {false, true}) {
         options.keep_layers = keeps;
-        const MemoryNeed one = memory_need(list, parallel_view, *find_profile("geforce8"), options, carrying);
-        const MemoryNeed other = memory_need(list, parallel_view, *find_profile("geforce8"), options, running);
+        const MemoryNeed one = memory_need({list, parallel_view, *find_profile("geforce8"), options}, carrying);
+        const MemoryNeed other = memory_need({list, parallel_view, *find_profile("geforce8"), options}, running);
         CHECK(one.targets == other.targets);
         CHECK(one.fragments == other.fragments);
         CHECK(one.layers == other.layers);

@@ -44,7 +44,7 @@ using strata::rasterizer::Interpolation;
     options.threads = 1;
     options.raster.interpolation = interpolation;
     options.sampling = {.samples = 4, .loads = loads};
-    return measure_samples(scene.list, scene.view, *find_profile("ideal"), options, *find_algorithm(algorithm));
+    return measure_samples({scene.list, scene.view, *find_profile("ideal"), options}, *find_algorithm(algorithm));
 }
 
 }  // namespace

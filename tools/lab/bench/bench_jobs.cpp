@@ -73,7 +73,7 @@ std::string algorithm_name(const BenchJob& job) { return job.algorithm == nullpt
 peeling::RenderResult run_algorithm(const BenchJob& job, const peeling::RenderOptions& options,
                                     const pipeline::Instruments& instruments) {
     const Session& session = job.scene->session;
-    peeling::Renderer renderer(session.scene.list, session.view, session.profile, options);
+    peeling::Renderer renderer(session.request(options));
     return job.algorithm == nullptr ? renderer.depth_pass({}, instruments)
                                     : renderer.render(*job.algorithm, {}, instruments);
 }

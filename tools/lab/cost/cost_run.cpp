@@ -19,7 +19,7 @@ using peeling::RenderResult;
 
 [[nodiscard]] RenderResult rendered(const Session& session, const CostCell& cell, const peeling::RenderOptions& options,
                                     const pipeline::Instruments& instruments = {}) {
-    return peeling::Renderer(session.scene.list, session.view, cell.profile, options)
+    return peeling::Renderer(session.request(options).on(cell.profile, options))
         .render(*cell.algorithm, {}, instruments);
 }
 

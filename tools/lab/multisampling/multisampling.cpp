@@ -86,8 +86,7 @@ MeasuredRow HazardSweep::measure(std::size_t row) {
     const Port& port = ports[row % ports.size()];
     run.render.raster.interpolation = port.interpolation;
     run.render.sampling = {.samples = run.sampling.samples, .loads = port.loads};
-    const peeling::SampleHazard h =
-        peeling::measure_samples(session.scene.list, session.view, session.profile, run.render, algorithm);
+    const peeling::SampleHazard h = peeling::measure_samples(session.request(run.render), algorithm);
     ordered_json line = description(row);
     line.update({{"outcome", h.refusal ? "refused" : "done"},
                  {"refusal", h.refusal ? h.refusal->feature : ""},

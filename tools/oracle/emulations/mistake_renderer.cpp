@@ -46,7 +46,8 @@ Targets finished(const PassReport& last, const PassReport& published, const Alte
 
 }  // namespace
 
-MistakeRenderer::MistakeRenderer(const RunInput& input, const peeling::Algorithm& algorithm, Depths depths, int limit)
+MistakeRenderer::MistakeRenderer(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm, Depths depths,
+                                 int limit)
     : input_{input}, algorithm_{algorithm}, depths_{depths}, limit_{limit} {
     right_ = run(altered_run(), &right_run_);
     find_enough_passes();
@@ -112,8 +113,7 @@ std::optional<AlteredRun> MistakeRenderer::altered_run(std::span<const Mistake* 
 std::vector<bool> MistakeRenderer::edges() const {
     std::vector<bool> edges;
     if (input_.options.sampling.samples == 1) return edges;
-    for (const peeling::SampleEdge edge :
-         peeling::sample_edges(input_.list, input_.view, input_.profile, input_.options, algorithm_))
+    for (const peeling::SampleEdge edge : peeling::sample_edges(input_, algorithm_))
         edges.push_back(edge != peeling::SampleEdge::inside);
     return edges;
 }

@@ -24,8 +24,8 @@ class MistakeRenderer {
   public:
     // Throws Refused if the correct run is refused. Objects that `input` refers to must outlive this. `limit`: the
     // number of geometry passes after which the candidate gives up; 0: unknown.
-    MistakeRenderer(const RunInput& input, const peeling::Algorithm& algorithm, Depths depths = Depths::left_out,
-                    int limit = 0);
+    MistakeRenderer(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
+                    Depths depths = Depths::left_out, int limit = 0);
 
     [[nodiscard]] const Picture& right() const noexcept { return right_; }
     [[nodiscard]] const RightRun& right_run() const noexcept { return right_run_; }
@@ -51,7 +51,7 @@ class MistakeRenderer {
     [[nodiscard]] Picture run(const AlteredRun& experiment, RightRun* counted = nullptr) const;
     void find_enough_passes();
 
-    RunInput input_;
+    peeling::FrameRequest input_;
     const peeling::Algorithm& algorithm_;
     Depths depths_;
     int limit_;

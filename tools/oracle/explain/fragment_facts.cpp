@@ -19,14 +19,14 @@ using peeling::ListOrder;
 using rasterizer::DepthPath;
 using rasterizer::Geometry;
 
-pipeline::View first_view(const RunInput& input) {
+pipeline::View first_view(const peeling::FrameRequest& input) {
     pipeline::View view = input.view;
     view.vertex_path = input.options.vertex_paths.first.value_or(view.vertex_path);
     return view;
 }
 
 // The same triangles with r and q, which two of the depth paths need.
-peeling::PreparedLists prepared(const RunInput& input, pipeline::DepthFormat format) {
+peeling::PreparedLists prepared(const peeling::FrameRequest& input, pipeline::DepthFormat format) {
     rasterizer::RasterState raster = peeling::raster_state(input.options, input.profile);
     raster.depth_format = format;
     return peeling::PreparedLists{{.list = input.list,
@@ -38,7 +38,7 @@ peeling::PreparedLists prepared(const RunInput& input, pipeline::DepthFormat for
 }
 
 // window_z and w_buffer follow the rules of the NV2A chip.
-bool has_path(const RunInput& input, DepthPath path, pipeline::DepthFormat format) {
+bool has_path(const peeling::FrameRequest& input, DepthPath path, pipeline::DepthFormat format) {
     const bool has_chip_rule = input.profile.raster.window_z == rasterizer::WindowZ::buffer_units;
     if (path != DepthPath::window_z && path != DepthPath::w_buffer) return true;
     const bool has_w = path == DepthPath::window_z || pipeline::has_perspective(input.view);
@@ -47,7 +47,8 @@ bool has_path(const RunInput& input, DepthPath path, pipeline::DepthFormat forma
 
 // Indices of the source triangles in submission order; empty vector: as listed. nullopt if the order is the algorithm's
 // own.
-std::optional<std::vector<std::uint32_t>> submission(const RunInput& input, const peeling::Algorithm& algorithm,
+std::optional<std::vector<std::uint32_t>> submission(const peeling::FrameRequest& input,
+                                                     const peeling::Algorithm& algorithm,
                                                      pipeline::Selection selection) {
     const bool sorts = algorithm.order == ListOrder::given && input.options.sort.rule != peeling::SortRule::none;
     if (algorithm.order == ListOrder::given && !sorts) return std::vector<std::uint32_t>{};
@@ -64,7 +65,7 @@ std::optional<std::vector<std::uint32_t>> submission(const RunInput& input, cons
 constexpr std::size_t longest_name = 200;
 
 // Finds a triangle's mesh by counting through the drawn instances.
-void add_mesh(const RunInput& input, pipeline::Selection drawn, std::uint32_t source, FragmentFact& fact) {
+void add_mesh(const peeling::FrameRequest& input, pipeline::Selection drawn, std::uint32_t source, FragmentFact& fact) {
     for (const pipeline::Instance& instance : input.list.instances) {
         const bool is_blended = input.list.materials[instance.material].alpha_mode == pipeline::AlphaMode::blend;
         if (drawn != pipeline::Selection::all && is_blended != (drawn == pipeline::Selection::transparent)) continue;
@@ -124,7 +125,7 @@ FragmentFact* find(std::vector<FragmentFact>& fragments, std::uint32_t primitive
     return found == fragments.end() ? nullptr : &*found;
 }
 
-void add_depths(const RunInput& input, const DrawnList& list, const rasterizer::Rect& window,
+void add_depths(const peeling::FrameRequest& input, const DrawnList& list, const rasterizer::Rect& window,
                 std::span<History> histories) {
     const pipeline::DepthFormat format = histories[0].depth_format;
     for (std::size_t path = 0; path < depth_path_names.size(); ++path) {
@@ -140,7 +141,7 @@ void add_depths(const RunInput& input, const DrawnList& list, const rasterizer::
     }
 }
 
-void add_facts_of(const RunInput& input, const DrawnList& list, const rasterizer::Rect& pixels,
+void add_facts_of(const peeling::FrameRequest& input, const DrawnList& list, const rasterizer::Rect& pixels,
                   std::span<History> histories) {
     const auto& [left, top] = input.options.window_origin;
     add_depths(input, list, {pixels.x0 + left, pixels.y0 + top, pixels.x1 + left, pixels.y1 + top}, histories);
@@ -157,7 +158,7 @@ void add_facts_of(const RunInput& input, const DrawnList& list, const rasterizer
 
 }  // namespace
 
-void add_facts(const RunInput& input, const peeling::Algorithm& algorithm, const rasterizer::Rect& pixels,
+void add_facts(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm, const rasterizer::Rect& pixels,
                std::span<History> histories) {
     const FloatEnvironment ours;
     peeling::PreparedLists lists = prepared(input, histories[0].depth_format);

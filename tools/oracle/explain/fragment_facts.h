@@ -9,7 +9,7 @@ namespace strata::oracle {
 
 // Fills mesh, triangle, barycentric and path_codes of the facts of each history; `histories` are the rectangle's pixels
 // row by row.
-void add_facts(const RunInput& input, const peeling::Algorithm& algorithm, const rasterizer::Rect& pixels,
+void add_facts(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm, const rasterizer::Rect& pixels,
                std::span<History> histories);
 
 }  // namespace strata::oracle

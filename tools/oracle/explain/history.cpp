@@ -277,7 +277,7 @@ class Recorder {
     int pass_ = 0;
 };
 
-std::vector<History> empty_histories(const RunInput& input, const peeling::Algorithm& algorithm,
+std::vector<History> empty_histories(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
                                      const rasterizer::Rect& pixels) {
     std::vector<History> histories;
     for (int y = pixels.y0; y < pixels.y1; ++y)
@@ -295,15 +295,15 @@ void check_pixels(const rasterizer::Rect& pixels, int width, int height) {
 
 // What is recorded of one sample.
 struct Recording {
-    Recording(const RunInput& input, const peeling::Algorithm& algorithm, const rasterizer::Rect& in_memory,
-              int sample = 0)
+    Recording(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
+              const rasterizer::Rect& in_memory, int sample = 0)
         : histories{empty_histories(input, algorithm, in_memory)},
           recorder{in_memory, input.options, sample, algorithm.key, histories} {}
     Recording(const Recording&) = delete;
     Recording& operator=(const Recording&) = delete;
 
     // `input` is that of a frame of the sample alone.
-    [[nodiscard]] std::vector<History> finish(const RunInput& input, const peeling::Algorithm& algorithm,
+    [[nodiscard]] std::vector<History> finish(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
                                               const rasterizer::Rect& in_memory) && {
         for (History& history : histories) {
             history.depth_format = format;
@@ -324,7 +324,8 @@ struct Recording {
 using Recordings = std::vector<std::unique_ptr<Recording>>;
 
 // Runs the algorithm with every effect, and returns the published picture.
-pipeline::Image record(const RunInput& input, const peeling::Algorithm& algorithm, const Recordings& recordings) {
+pipeline::Image record(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
+                       const Recordings& recordings) {
     const auto each = [&recordings](const auto& tell) {
         for (const auto& recording : recordings) tell(*recording);
     };
@@ -342,14 +343,14 @@ pipeline::Image record(const RunInput& input, const peeling::Algorithm& algorith
                      const StageEvent& event) { each([&](Recording& r) { r.recorder.stage(region, event); }); },
         .traced = [&](const Region&,
                       const pipeline::TraceEntry& entry) { each([&](Recording& r) { r.recorder.traced(entry); }); }};
-    RunInput everything = input;
+    peeling::FrameRequest everything = input;
     everything.options.effects = pipeline::Effects::all;
     return observe(everything, algorithm, observer);
 }
 
 }  // namespace
 
-std::vector<History> explain(const RunInput& input, const peeling::Algorithm& algorithm,
+std::vector<History> explain(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
                              const rasterizer::Rect& pixels) {
     check_pixels(pixels, input.options.width, input.options.height);
     const rasterizer::Rect in_memory = peeling::AsShown{input.options, input.profile}.rect(pixels);
@@ -359,7 +360,7 @@ std::vector<History> explain(const RunInput& input, const peeling::Algorithm& al
     return std::move(*recordings[0]).finish(input, algorithm, in_memory);
 }
 
-SampledHistory explain_samples(const RunInput& input, const peeling::Algorithm& algorithm, int x, int y) {
+SampledHistory explain_samples(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm, int x, int y) {
     const rasterizer::Rect pixel{x, y, x + 1, y + 1};
     check_pixels(pixel, input.options.width, input.options.height);
     const rasterizer::Rect in_memory = peeling::AsShown{input.options, input.profile}.rect(pixel);
@@ -369,7 +370,7 @@ SampledHistory explain_samples(const RunInput& input, const peeling::Algorithm& 
     const pipeline::Image picture = record(input, algorithm, recordings);
     SampledHistory result{.sampling = input.options.sampling, .format = picture.format};
     for (std::size_t sample = 0; sample < recordings.size(); ++sample) {
-        RunInput single = input;
+        peeling::FrameRequest single = input;
         single.options.sampling = {};
         if (input.options.sampling.samples > 1)
             pipeline::set_sample(single.options.raster, input.profile.sample_positions, input.options.sampling.samples,

@@ -100,7 +100,7 @@ struct History {
 
 // The histories of a rectangle's pixels, row by row, in a frame of one sample. InputError if it leaves the frame;
 // throws Refused.
-[[nodiscard]] std::vector<History> explain(const RunInput& input, const peeling::Algorithm& algorithm,
+[[nodiscard]] std::vector<History> explain(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
                                            const rasterizer::Rect& pixels);
 
 // The histories of a pixel's samples: counts of queries are of all samples. What a line reads is what its own sample
@@ -112,7 +112,8 @@ struct SampledHistory {
     pipeline::Format format{};
     std::vector<std::uint32_t> resolved{};  // the pixel of the picture
 };
-[[nodiscard]] SampledHistory explain_samples(const RunInput& input, const peeling::Algorithm& algorithm, int x, int y);
+[[nodiscard]] SampledHistory explain_samples(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
+                                             int x, int y);
 
 // The fragments of each composited layer, near to far: those taken at the near end in order, then those taken at the
 // far end, last first.

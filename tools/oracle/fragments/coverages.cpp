@@ -54,7 +54,7 @@ pipeline::VertexAlteration moved(double right, double up, int width, int height)
 // The renderings of some rows: by every tie rule, then moved.
 class EightDrawings {
   public:
-    EightDrawings(const RunInput& input, const SceneFragments& given, const Rows& rows) : given_{given} {
+    EightDrawings(const peeling::FrameRequest& input, const SceneFragments& given, const Rows& rows) : given_{given} {
         constexpr std::uint64_t bytes = std::uint64_t{1} << 30;
         using rasterizer::TieRule;
         for (const TieRule rule :
@@ -62,14 +62,14 @@ class EightDrawings {
             if (rule == input.profile.raster.tie_rule) continue;
             pipeline::DeviceProfile& profile = profiles_.emplace_back(input.profile);
             profile.raster.tie_rule = rule;
-            others_.emplace_back(RunInput{input.list, input.view, profile, input.options}, bytes, rows);
+            others_.emplace_back(input.on(profile, input.options), bytes, rows);
         }
         for (const double right : {moved_by, -moved_by})
             for (const double up : {moved_by, -moved_by}) {
                 peeling::RenderOptions options = input.options;
                 options.vertex_alteration =
                     &changes_.emplace_back(moved(right, up, input.options.width, input.options.height));
-                others_.emplace_back(RunInput{input.list, input.view, input.profile, options}, bytes, rows);
+                others_.emplace_back(input.with(options), bytes, rows);
             }
     }
 
@@ -126,7 +126,7 @@ std::vector<Rows> bands_of(const SceneFragments& scene) {
 
 }  // namespace
 
-Coverages::Coverages(const RunInput& input, const SceneFragments& given, const TakeSpreads& take)
+Coverages::Coverages(const peeling::FrameRequest& input, const SceneFragments& given, const TakeSpreads& take)
     : width_{given.width()} {
     number_.assign(static_cast<std::size_t>(given.width()) * static_cast<std::size_t>(given.height()), 0);
     for (const Rows& rows : bands_of(given)) {

@@ -51,7 +51,7 @@ class Coverages {
   public:
     // Renders the scene seven times in addition to `given`, whose fragments must have been kept. The rows are rendered
     // in bands, so that the seven pictures take no more memory than `given` does.
-    Coverages(const RunInput& input, const SceneFragments& given, const TakeSpreads& take);
+    Coverages(const peeling::FrameRequest& input, const SceneFragments& given, const TakeSpreads& take);
 
     [[nodiscard]] const EdgePixel* at(int x, int y) const noexcept;
     [[nodiscard]] std::size_t count() const noexcept { return pixels_.size(); }

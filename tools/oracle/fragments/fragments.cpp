@@ -88,7 +88,7 @@ TileLists sorted_into_lists(const Region& region, const std::vector<Captured>& c
 }
 
 // The instance of every triangle, in submission order.
-std::vector<std::uint32_t> instances_of(const RunInput& input) {
+std::vector<std::uint32_t> instances_of(const peeling::FrameRequest& input) {
     std::vector<std::uint32_t> instances;
     const pipeline::DrawList& list = input.list;
     for (std::uint32_t i = 0; i < list.instances.size(); ++i) {
@@ -127,7 +127,7 @@ std::vector<rasterizer::Rect> rest_of_frame(int width, int height, std::span<con
 
 }  // namespace
 
-SceneFragments::SceneFragments(const RunInput& input, std::uint64_t bytes, const Rows& rows)
+SceneFragments::SceneFragments(const peeling::FrameRequest& input, std::uint64_t bytes, const Rows& rows)
     : input_{input},
       rows_{rows},
       setting_{setting_of(input.list, input.view, input.options.background)},
@@ -205,7 +205,7 @@ pipeline::Image SceneFragments::draw(const std::function<void(TileLists&&)>& tak
             take(sorted_into_lists(region, capture(region, instance_of_, input_.list.instances)));
         region.publish(region.opaque_color());
     };
-    peeling::Renderer renderer{input_.list, input_.view, profile, options};
+    peeling::Renderer renderer{input_.on(profile, options)};
     peeling::RenderResult result = renderer.render(fragments);
     if (result.refusal) throw pipeline::Refused{profile, *std::move(result.refusal)};
     return std::move(result.frame.color);

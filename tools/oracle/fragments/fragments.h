@@ -15,9 +15,9 @@
 #include <span>
 #include <vector>
 
+#include "peeling/frame_request.h"
 #include "pipeline/formats/image.h"
 #include "tools/oracle/fragments/setting.h"
-#include "tools/oracle/run_input.h"
 
 namespace strata::oracle::verdict {
 
@@ -68,7 +68,7 @@ class SceneFragments {
     // Renders the scene at one sample, whose point RasterState::sample says. `bytes` limits the kept fragments. Only
     // tiles that intersect `rows` are rendered and kept: the other ones look blank. Throws Refused and InputError like
     // a renderer. Objects that `input` refers to must outlive this.
-    SceneFragments(const RunInput& input, std::uint64_t bytes, const Rows& rows = {});
+    SceneFragments(const peeling::FrameRequest& input, std::uint64_t bytes, const Rows& rows = {});
 
     [[nodiscard]] int width() const noexcept { return input_.options.width; }
     [[nodiscard]] int height() const noexcept { return input_.options.height; }
@@ -109,7 +109,7 @@ class SceneFragments {
     void index_tiles();
     [[nodiscard]] const TileLists* tile_at(int x, int memory_row) const noexcept;
 
-    RunInput input_;
+    peeling::FrameRequest input_;
     Rows rows_;
     Setting setting_;
     std::vector<std::uint32_t> instance_of_{};  // per primitive

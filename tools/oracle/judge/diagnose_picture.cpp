@@ -25,7 +25,7 @@ bool is_decided(const DiagnosisQuestion& question, const Diagnosis& found) {
            !question.algorithm.exact;
 }
 
-bool has_layers(const RunInput& input) {
+bool has_layers(const peeling::FrameRequest& input) {
     return input.options.sampling.samples == 1 ||
            (!input.options.sampling.loads_others() && input.options.sampling.resolve == pipeline::Resolve::box);
 }

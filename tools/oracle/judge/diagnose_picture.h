@@ -16,7 +16,7 @@
 namespace strata::oracle {
 
 struct DiagnosisQuestion {
-    RunInput input;
+    peeling::FrameRequest input;
     const peeling::Algorithm& algorithm;
     const Picture& candidate;
     Tolerances tolerances{};

@@ -107,7 +107,7 @@ std::string words_of(const Color& color) {
     return fmt::format("{},{},{}", number_of(color[0]), number_of(color[1]), number_of(color[2]));
 }
 
-Color given_background(const RunInput& input) {
+Color given_background(const peeling::FrameRequest& input) {
     const auto& b = input.options.background;
     return {double{b[0]}, double{b[1]}, double{b[2]}};
 }
@@ -120,7 +120,7 @@ Color in_srgb(const Color& color, pipeline::ColorSpace space) {
 }
 
 // Options of a frame with one sample per pixel, which has no other position for colours.
-peeling::RenderOptions options_of_one_sample(const RunInput& input) {
+peeling::RenderOptions options_of_one_sample(const peeling::FrameRequest& input) {
     peeling::RenderOptions options = input.options;
     options.raster.interpolation = rasterizer::Interpolation::sample;
     options.sampling = {};
@@ -135,7 +135,7 @@ struct SceneVariant {
     double right = 0, up = 0;  // moved by pixels
 };
 
-std::vector<SceneVariant> ways(const RunInput& input, const std::optional<SeenBackground>& seen) {
+std::vector<SceneVariant> ways(const peeling::FrameRequest& input, const std::optional<SeenBackground>& seen) {
     std::vector<SceneVariant> all;
     for (const bool is_seen : {false, true}) {
         if (is_seen && !seen) continue;
@@ -163,7 +163,7 @@ std::string moved(const SceneVariant& way) {
     return text.empty() ? "" : fmt::format("everything is half a pixel further {}", text);
 }
 
-pipeline::View moved_view(const RunInput& input, const SceneVariant& way) {
+pipeline::View moved_view(const peeling::FrameRequest& input, const SceneVariant& way) {
     pipeline::View view = input.view;
     const double x = 2 * way.right / input.options.width, y = 2 * way.up / input.options.height;
     for (int c = 0; c < 4; ++c) {
@@ -173,10 +173,10 @@ pipeline::View moved_view(const RunInput& input, const SceneVariant& way) {
     return view;
 }
 
-bool is_right_so(const RunInput& input, const SceneVariant& way, const Colors& picture,
+bool is_right_so(const peeling::FrameRequest& input, const SceneVariant& way, const Colors& picture,
                  const std::vector<std::uint32_t>& wrong) {
     const pipeline::View view = moved_view(input, way);
-    RunInput so{input.list, view, input.profile, input.options, input.space};
+    peeling::FrameRequest so{input.list, view, input.profile, input.options, input.space};
     so.options.sampling.samples = way.samples;
     if (way.samples == 1) so.options = options_of_one_sample(input);
     if (way.background)
@@ -240,12 +240,11 @@ Agreeing agreeing(const Expected& right, const Colors& picture, const Color& bac
 
 }  // namespace
 
-std::vector<std::string> forgotten_options(const RunInput& input, const Colors& picture,
+std::vector<std::string> forgotten_options(const peeling::FrameRequest& input, const Colors& picture,
                                            const std::vector<std::uint32_t>& wrong_pixels, const std::string& camera,
                                            const ShowProgress& progress) {
     std::vector<std::string> sentences;
-    const SceneFragments scene{{input.list, input.view, input.profile, options_of_one_sample(input), input.space},
-                               input.options.fragment_memory};
+    const SceneFragments scene{input.with(options_of_one_sample(input)), input.options.fragment_memory};
     const Expected right = expected(scene);
     const Color given = given_background(input);
     const auto seen = seen_background(right, picture, given);
@@ -282,14 +281,14 @@ std::vector<std::string> forgotten_options(const RunInput& input, const Colors& 
     return sentences;
 }
 
-std::vector<std::string> forgotten_options(const RunInput& input, const verdict::PictureVerdict& verdict,
+std::vector<std::string> forgotten_options(const peeling::FrameRequest& input, const verdict::PictureVerdict& verdict,
                                            const std::string& camera, const ShowProgress& progress) {
     const std::vector<std::uint32_t>& wrong = verdict.found.right.wrong_pixels;
     if (verdict.found.is_right || wrong.empty() || !verdict.found.explanations.empty()) return {};
     return forgotten_options(input, verdict.formed.colors(), wrong, camera, progress);
 }
 
-std::vector<std::string> forgotten_options(const RunInput& input, const SamplesVerdict& verdict,
+std::vector<std::string> forgotten_options(const peeling::FrameRequest& input, const SamplesVerdict& verdict,
                                            const std::string& camera, const ShowProgress& progress) {
     if (verdict.found.wrong_pixels.empty()) return {};
     return forgotten_options(input, verdict.form.colors(), verdict.found.wrong_pixels, camera, progress);

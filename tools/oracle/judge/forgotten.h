@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/oracle/run_input.h"
+#include "peeling/frame_request.h"
 #include "tools/oracle/show_progress.h"
 
 namespace strata::oracle::verdict {
@@ -23,15 +23,18 @@ namespace strata::oracle {
 struct SamplesVerdict;
 
 // Sentences about a picture that is wrong at `wrong_pixels` (ascending numbers), without an end of line.
-[[nodiscard]] std::vector<std::string> forgotten_options(const RunInput& input, const verdict::Colors& picture,
+[[nodiscard]] std::vector<std::string> forgotten_options(const peeling::FrameRequest& input,
+                                                         const verdict::Colors& picture,
                                                          const std::vector<std::uint32_t>& wrong_pixels,
                                                          const std::string& camera, const ShowProgress& progress = {});
 
 // The same of a verdict; none unless colours are wrong and no mistake explains them.
-[[nodiscard]] std::vector<std::string> forgotten_options(const RunInput& input, const verdict::PictureVerdict& verdict,
+[[nodiscard]] std::vector<std::string> forgotten_options(const peeling::FrameRequest& input,
+                                                         const verdict::PictureVerdict& verdict,
                                                          const std::string& camera, const ShowProgress& progress = {});
-[[nodiscard]] std::vector<std::string> forgotten_options(const RunInput& input, const SamplesVerdict& verdict,
-                                                         const std::string& camera, const ShowProgress& progress = {});
+[[nodiscard]] std::vector<std::string> forgotten_options(const peeling::FrameRequest& input,
+                                                         const SamplesVerdict& verdict, const std::string& camera,
+                                                         const ShowProgress& progress = {});
 
 // The text with the sentences as lines after the first; the JSON document with them as "forgotten".
 [[nodiscard]] std::string with_forgotten(const std::string& text, const std::vector<std::string>& sentences);

@@ -31,7 +31,8 @@ Judgement with_sentences(Judgement judgement) {
 
 }  // namespace
 
-Judgement judge(const RunInput& input, const AskedPicture& picture, std::span<const pipeline::DeviceProfile> more) {
+Judgement judge(const peeling::FrameRequest& input, const AskedPicture& picture,
+                std::span<const pipeline::DeviceProfile> more) {
     if (input.options.sampling.samples > 1) {
         const SamplesVerdict verdict = judge_samples(input, picture, more);
         Judgement judgement{.is_right = verdict.found.is_right(), .text = to_text(verdict), .json = to_json(verdict)};

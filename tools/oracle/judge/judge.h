@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "peeling/frame_request.h"
 #include "tools/oracle/judge/asked_picture.h"
-#include "tools/oracle/run_input.h"
 
 namespace strata::oracle {
 
@@ -24,7 +24,7 @@ struct Judgement {
 };
 
 // `more`: profiles that are tried before the built-in ones. Throws Refused if the device lacks the number of samples.
-[[nodiscard]] Judgement judge(const RunInput& input, const AskedPicture& picture,
+[[nodiscard]] Judgement judge(const peeling::FrameRequest& input, const AskedPicture& picture,
                               std::span<const pipeline::DeviceProfile> more = {});
 
 }  // namespace strata::oracle

@@ -25,7 +25,7 @@ using verdict::SceneFragments;
 namespace {
 
 // The fragments of each sample by the rules, of a part of the picture or of all of it.
-verdict::Samples samples_of(const RunInput& input, const OtherRules& rules,
+verdict::Samples samples_of(const peeling::FrameRequest& input, const OtherRules& rules,
                             const std::optional<rasterizer::Rect>& within = {}) {
     const int count = input.options.sampling.samples;
     if (auto lacking = pipeline::check_multisampling(rules.profile, count))
@@ -36,9 +36,8 @@ verdict::Samples samples_of(const RunInput& input, const OtherRules& rules,
         options.raster.interpolation = rules.interpolation;
         pipeline::set_sample(options.raster, rules.profile.sample_positions, count, static_cast<std::size_t>(number));
         options.sampling = {};
-        samples.push_back(
-            std::make_unique<SceneFragments>(RunInput{input.list, input.view, rules.profile, options, input.space},
-                                             std::numeric_limits<std::uint64_t>::max()));
+        samples.push_back(std::make_unique<SceneFragments>(input.on(rules.profile, options),
+                                                           std::numeric_limits<std::uint64_t>::max()));
     }
     return samples;
 }
@@ -67,7 +66,7 @@ bool is_better(const ResolvedVerdict& a, const ResolvedVerdict& b) {
 
 }  // namespace
 
-std::optional<ResolvedVerdict> right_samples_by(const OtherRules& rules, const RunInput& input,
+std::optional<ResolvedVerdict> right_samples_by(const OtherRules& rules, const peeling::FrameRequest& input,
                                                 const verdict::Colors& candidate,
                                                 const std::vector<std::uint32_t>& wrong) {
     if (pipeline::sample_points(rules.profile.sample_positions, input.options.sampling.samples).empty())
@@ -81,7 +80,8 @@ std::optional<ResolvedVerdict> right_samples_by(const OtherRules& rules, const R
     }
 }
 
-SamplesVerdict judge_samples(const RunInput& input, const AskedPicture& picture, std::span<const DeviceProfile> more) {
+SamplesVerdict judge_samples(const peeling::FrameRequest& input, const AskedPicture& picture,
+                             std::span<const DeviceProfile> more) {
     SamplesVerdict verdict{.by = "the rules of profile " + input.profile.name};
     const verdict::Samples given = samples_of(input, {"", input.profile, input.options.raster.interpolation});
     for (Formed& form : forms_of(picture, input.space)) {

@@ -10,9 +10,9 @@
 #include <span>
 #include <string>
 
+#include "peeling/frame_request.h"
 #include "tools/oracle/fragments/form.h"
 #include "tools/oracle/judge/asked_picture.h"
-#include "tools/oracle/run_input.h"
 #include "tools/oracle/verdict/other_rules.h"
 #include "tools/oracle/verdict/resolved.h"
 
@@ -26,13 +26,13 @@ struct SamplesVerdict {
 };
 
 // `more`: profiles that are tried before the built-in ones. Throws Refused if the profile lacks the number of samples.
-[[nodiscard]] SamplesVerdict judge_samples(const RunInput& input, const AskedPicture& picture,
+[[nodiscard]] SamplesVerdict judge_samples(const peeling::FrameRequest& input, const AskedPicture& picture,
                                            std::span<const pipeline::DeviceProfile> more = {});
 
 // The verdict by the rules if the picture is right by them. `wrong`: pixels that are wrong by the rules given, which
 // are compared first.
 [[nodiscard]] std::optional<verdict::ResolvedVerdict> right_samples_by(const verdict::OtherRules& rules,
-                                                                       const RunInput& input,
+                                                                       const peeling::FrameRequest& input,
                                                                        const verdict::Colors& candidate,
                                                                        const std::vector<std::uint32_t>& wrong);
 

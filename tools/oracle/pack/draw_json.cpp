@@ -30,7 +30,7 @@ NumberArray rows(Element element, std::size_t columns, const Items& items, Fill 
 }
 
 // PreparedLists as in Renderer, but without the light, which affects no position.
-peeling::PreparedLists lists_of(const RunInput& input) {
+peeling::PreparedLists lists_of(const peeling::FrameRequest& input) {
     rasterizer::RasterState raster = peeling::raster_state(input.options, input.profile);
     // Of several samples the draws are those of the pixel's centre.
     if (input.options.sampling.samples > 1)
@@ -105,7 +105,7 @@ void add_window(const Geometry& geometry, const std::vector<std::uint32_t>& orde
 
 }  // namespace
 
-ordered_json draws_json(const RunInput& input, scenes::PackFiles& files) {
+ordered_json draws_json(const peeling::FrameRequest& input, scenes::PackFiles& files) {
     const FloatEnvironment ours;
     peeling::PreparedLists lists = lists_of(input);
     ordered_json draws = ordered_json::array();
@@ -129,7 +129,7 @@ ordered_json draws_json(const RunInput& input, scenes::PackFiles& files) {
     return draws;
 }
 
-std::vector<std::uint32_t> submission_of(const RunInput& input, peeling::ListOrder order) {
+std::vector<std::uint32_t> submission_of(const peeling::FrameRequest& input, peeling::ListOrder order) {
     const FloatEnvironment ours;
     return lists_of(input).submission(order);
 }

@@ -14,9 +14,9 @@
 namespace strata::oracle {
 
 // For the opaque and the transparent list, unless empty.
-[[nodiscard]] nlohmann::ordered_json draws_json(const RunInput& input, scenes::PackFiles& files);
+[[nodiscard]] nlohmann::ordered_json draws_json(const peeling::FrameRequest& input, scenes::PackFiles& files);
 
 // The indices of the transparent list's triangles in the submission order `order`; empty: as listed.
-[[nodiscard]] std::vector<std::uint32_t> submission_of(const RunInput& input, peeling::ListOrder order);
+[[nodiscard]] std::vector<std::uint32_t> submission_of(const peeling::FrameRequest& input, peeling::ListOrder order);
 
 }  // namespace strata::oracle

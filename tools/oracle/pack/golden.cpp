@@ -36,7 +36,7 @@ ordered_json pass_json(const PassReport& pass, TargetWriter& targets) {
 }
 
 // Every pass, and the published image.
-void add_passes(const RunInput& input, const peeling::Algorithm& algorithm, TargetWriter& targets,
+void add_passes(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm, TargetWriter& targets,
                 ordered_json& object) {
     int geometry = 0, full_screen = 0;
     ordered_json list = ordered_json::array(), picture;
@@ -55,13 +55,13 @@ void add_passes(const RunInput& input, const peeling::Algorithm& algorithm, Targ
 }
 
 // The layers and the nearest depth, from a separate run.
-void add_layers(const RunInput& input, const peeling::Algorithm& algorithm, TargetWriter& targets,
+void add_layers(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm, TargetWriter& targets,
                 ordered_json& object) {
     peeling::RenderOptions options = input.options;
     options.audit = false;
     options.nearest_depth = true;
     options.keep_layers = algorithm.makes_layers;
-    peeling::Renderer renderer{input.list, input.view, input.profile, options};
+    peeling::Renderer renderer{input.with(options)};
     peeling::RenderResult result = renderer.render(algorithm);
     if (result.refusal) throw pipeline::Refused{input.profile, *std::move(result.refusal)};
     object["depth"] = targets.write("", "depth", result.frame.depth);
@@ -80,7 +80,7 @@ void add_layers(const RunInput& input, const peeling::Algorithm& algorithm, Targ
 }
 
 ordered_json result_json(const Golden& golden, const peeling::Algorithm& algorithm, scenes::PackFiles& files) {
-    const RunInput input{golden.scene.list, *golden.scene.own_view, golden.profile, golden.options};
+    const peeling::FrameRequest input = golden.request();
     const std::string folder = "expected/" + algorithm.name;
     TargetWriter targets{folder, files};
     ordered_json object{{"algorithm", algorithm.name}, {"order", nullptr}};
@@ -108,7 +108,7 @@ void derive(const Golden& golden, const scenes::PackFiles::Sink& sink,
     manifest["scene"] = scenes::scene_json(golden.scene, golden.color_space, files);
     manifest["view"] = scenes::view_json(*golden.scene.own_view);
     manifest["state"] = state_json(golden.options, golden.profile);
-    manifest["draws"] = draws_json({golden.scene.list, *golden.scene.own_view, golden.profile, golden.options}, files);
+    manifest["draws"] = draws_json(golden.request(), files);
     manifest["results"] = ordered_json::array();
     for (std::size_t i = 0; i < golden.algorithms.size(); ++i) {
         manifest["results"].push_back(result_json(golden, *golden.algorithms[i], files));

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "peeling/algorithms/algorithm.h"
-#include "peeling/render_options.h"
+#include "peeling/frame_request.h"
 #include "pipeline/device/profile.h"
 #include "scenes/packs/pack_files.h"
 #include "scenes/scene.h"
@@ -25,6 +25,10 @@ struct Golden {
     peeling::RenderOptions options{};  // background in the frame's colour space
     std::vector<const peeling::Algorithm*> algorithms{};
     std::string command{};  // the command that writes the same pack
+
+    [[nodiscard]] peeling::FrameRequest request() const {
+        return {scene.list, scene.own_view.value(), profile, options, color_space};
+    }
 };
 
 // Passes every file of the pack to `sink`, manifest.json last. Throws Refused if the profile lacks a feature.

@@ -35,12 +35,12 @@ std::string TargetNames::of(pipeline::Target target) const {
     return id < names_.size() && !names_[id].empty() ? names_[id] : fmt::format("target.{}", target.id);
 }
 
-pipeline::Image observe(const RunInput& input, const peeling::Algorithm& algorithm, const pipeline::Observer& observer,
-                        const pipeline::Alteration* alteration) {
+pipeline::Image observe(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
+                        const pipeline::Observer& observer, const pipeline::Alteration* alteration) {
     peeling::RenderOptions options = input.options;
     options.execution = pipeline::Execution::literal;
     options.audit = options.keep_layers = options.nearest_depth = false;
-    peeling::Renderer renderer{input.list, input.view, input.profile, options};
+    peeling::Renderer renderer{input.with(options)};
     peeling::RenderResult result = renderer.render(algorithm, {}, {.observer = &observer, .alteration = alteration});
     if (result.outcome == peeling::Outcome::refused) throw pipeline::Refused{input.profile, *std::move(result.refusal)};
     return std::move(result.frame.color);
@@ -149,7 +149,7 @@ class PassCollector {
 
 }  // namespace
 
-void passes(const RunInput& input, const peeling::Algorithm& algorithm,
+void passes(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
             const std::function<void(PassReport&&)>& on_pass, const pipeline::Alteration* alteration) {
     PassCollector collector{on_pass, {input.options, input.profile}};
     const pipeline::Observer observer{

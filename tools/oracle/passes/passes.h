@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "peeling/algorithms/algorithm.h"
+#include "peeling/frame_request.h"
 #include "pipeline/frame/alteration.h"
 #include "pipeline/frame/observer.h"
 #include "tools/oracle/passes/target_parts.h"
-#include "tools/oracle/run_input.h"
 
 namespace strata::oracle {
 
@@ -43,7 +43,7 @@ struct PassReport {
 
 // Calls `on_pass` for one pass after another; it may keep the images. Throws Refused if the profile lacks a feature.
 // `alteration`, unless null, makes a run with a mistake.
-void passes(const RunInput& input, const peeling::Algorithm& algorithm,
+void passes(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
             const std::function<void(PassReport&&)>& on_pass, const pipeline::Alteration* alteration = nullptr);
 
 // Names of targets by their numbers, for observers.
@@ -57,7 +57,7 @@ class TargetNames {
 };
 
 // Renders literally, without an audit, for an observer, and returns the published picture. Throws Refused.
-pipeline::Image observe(const RunInput& input, const peeling::Algorithm& algorithm, const pipeline::Observer& observer,
-                        const pipeline::Alteration* alteration = nullptr);
+pipeline::Image observe(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
+                        const pipeline::Observer& observer, const pipeline::Alteration* alteration = nullptr);
 
 }  // namespace strata::oracle

@@ -152,7 +152,7 @@ class Reducer {
         scene.options.alpha = 1.0f;  // so that opaque ones are captured, too
         scene.options.sort = {};
         scene.options.raster.cull = rasterizer::CullFace::none;
-        peeling::Renderer renderer{scene.scene.list, *scene.scene.own_view, scene.profile, scene.options};
+        peeling::Renderer renderer{scene.request()};
         std::set<std::uint32_t> numbers;
         for (const pipeline::CapturedFragment& f : renderer.fragments(*scene.algorithms[0]).all)
             numbers.insert(f.primitive);
@@ -271,7 +271,7 @@ std::string number_of(std::size_t count, const char* thing) {
 Picture right_picture(const Golden& scene) {
     peeling::RenderOptions options = scene.options;
     options.audit = options.keep_layers = options.nearest_depth = false;
-    peeling::Renderer renderer{scene.scene.list, *scene.scene.own_view, scene.profile, options};
+    peeling::Renderer renderer{scene.request().with(options)};
     peeling::RenderResult result = renderer.render(*scene.algorithms.at(0));
     if (result.outcome == peeling::Outcome::refused) throw pipeline::Refused{scene.profile, *std::move(result.refusal)};
     Picture picture{.file = "", .targets = {as_target(result.frame.color, "color")}};

@@ -35,7 +35,7 @@ struct OpenScene {
     pipeline::DeviceProfile profile;
     peeling::RenderOptions options;
     const peeling::Algorithm* algorithm = nullptr;
-    [[nodiscard]] RunInput input() const { return {scene.list, view, profile, options}; }
+    [[nodiscard]] peeling::FrameRequest input() const { return {scene.list, view, profile, options}; }
 };
 [[nodiscard]] OpenScene open(const SuiteScene& scene);
 

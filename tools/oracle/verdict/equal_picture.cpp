@@ -62,7 +62,7 @@ std::vector<const peeling::Algorithm*> tried(const peeling::Algorithm* stated, i
     return all;
 }
 
-std::vector<std::optional<Format>> formats_of(const RunInput& input, Code code) {
+std::vector<std::optional<Format>> formats_of(const peeling::FrameRequest& input, Code code) {
     std::vector<std::optional<Format>> formats{input.options.color_format};
     if (code == Code::unorm8) formats.insert(formats.end(), {Format::rgba8, Format::rgba16f, Format::rgba32f});
     if (code == Code::half) formats.emplace_back(Format::rgba16f);
@@ -90,7 +90,8 @@ rasterizer::Rect fullest(const SceneFragments& scene) {
     return {x, y, std::min(x + side, scene.width()), std::min(y + side, scene.height())};
 }
 
-std::string equal_algorithm(const RunInput& input, const PictureQuestion& question, const rasterizer::Rect& part) {
+std::string equal_algorithm(const peeling::FrameRequest& input, const PictureQuestion& question,
+                            const rasterizer::Rect& part) {
     const rasterizer::Rect whole{0, 0, question.colors.width, question.colors.height};
     for (const std::optional<Format> format : formats_of(input, question.colors.code))
         for (const peeling::Algorithm* const algorithm : tried(question.algorithm, input.options.sampling.samples)) {
@@ -98,7 +99,7 @@ std::string equal_algorithm(const RunInput& input, const PictureQuestion& questi
                 peeling::RenderOptions options = rect == whole ? input.options : scissored(input.options, rect);
                 options.audit = false;
                 options.color_format = format;
-                peeling::Renderer renderer{input.list, input.view, input.profile, options};
+                peeling::Renderer renderer{input.with(options)};
                 const peeling::RenderResult drawn = renderer.render(*algorithm);
                 const auto own = drawn.refusal ? std::nullopt : as_stored(drawn.frame.color, question);
                 return own && is_equal(*own, question, rect);

@@ -8,7 +8,7 @@
 #pragma once
 #include <string>
 
-#include "tools/oracle/run_input.h"
+#include "peeling/frame_request.h"
 
 namespace strata::oracle::verdict {
 
@@ -20,7 +20,7 @@ class SceneFragments;
 
 // The algorithm's name; empty if there is none. `part` is compared first. Profiles that reject an algorithm are no
 // error.
-[[nodiscard]] std::string equal_algorithm(const RunInput& input, const PictureQuestion& question,
+[[nodiscard]] std::string equal_algorithm(const peeling::FrameRequest& input, const PictureQuestion& question,
                                           const rasterizer::Rect& part);
 
 }  // namespace strata::oracle::verdict

@@ -35,9 +35,10 @@ constexpr std::size_t few_wrong = 16;
 
 // True if a definite hypothesis explains the rectangle. A hypothesis that fails there fails for the whole picture, so
 // the rest need not be rendered.
-bool may_be_right(const RunInput& input, std::uint64_t bytes, const Colors& candidate, const rasterizer::Rect& rect) {
+bool may_be_right(const peeling::FrameRequest& input, std::uint64_t bytes, const Colors& candidate,
+                  const rasterizer::Rect& rect) {
     const peeling::RenderOptions options = scissored(input.options, rect);
-    const SceneFragments part{{input.list, input.view, input.profile, options, input.space}, bytes};
+    const SceneFragments part{input.with(options), bytes};
     Sample sample{part.setting()};
     std::mutex mutex;
     part.for_each_tile([&](const TileLists& tile) {
@@ -70,12 +71,12 @@ std::optional<Verdict> right_narrowly(const SceneFragments& scene, const Colors&
     return verdict;
 }
 
-std::optional<OtherProfile> right_by_rules(const RunInput& input, OtherRules rules, const Colors& candidate,
-                                           const std::vector<std::uint32_t>& wrong_pixels) {
+std::optional<OtherProfile> right_by_rules(const peeling::FrameRequest& input, OtherRules rules,
+                                           const Colors& candidate, const std::vector<std::uint32_t>& wrong_pixels) {
     const std::uint64_t bytes = input.options.fragment_memory;
     OtherProfile other{.profile = std::make_unique<pipeline::DeviceProfile>(rules.profile), .fragments = nullptr};
     other.rules = std::move(rules);
-    const RunInput by_other{input.list, input.view, *other.profile, input.options, input.space};
+    const peeling::FrameRequest by_other = input.on(*other.profile, input.options);
     try {
         if (!wrong_pixels.empty() &&
             !may_be_right(by_other, bytes, candidate, most_wrong(wrong_pixels, candidate.width())))
@@ -94,7 +95,7 @@ std::optional<OtherProfile> right_by_rules(const RunInput& input, OtherRules rul
     return other;
 }
 
-std::optional<OtherProfile> right_by_other_profile(const RunInput& input, const Colors& candidate,
+std::optional<OtherProfile> right_by_other_profile(const peeling::FrameRequest& input, const Colors& candidate,
                                                    const std::vector<std::uint32_t>& wrong_pixels,
                                                    std::span<const pipeline::DeviceProfile> more) {
     for (OtherRules& rules : other_rules(input, more))

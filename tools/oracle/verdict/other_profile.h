@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "peeling/frame_request.h"
 #include "tools/oracle/fragments/fragments.h"
-#include "tools/oracle/run_input.h"
 #include "tools/oracle/verdict/other_rules.h"
 #include "tools/oracle/verdict/verdict.h"
 
@@ -37,12 +37,13 @@ struct OtherProfile {
 
 // The verdict by the rules if the picture is right by them; empty if it is not, or if they cannot render the scene.
 // `wrong_pixels`: by the rules given; those are compared first.
-[[nodiscard]] std::optional<OtherProfile> right_by_rules(const RunInput& input, OtherRules rules,
+[[nodiscard]] std::optional<OtherProfile> right_by_rules(const peeling::FrameRequest& input, OtherRules rules,
                                                          const Colors& candidate,
                                                          const std::vector<std::uint32_t>& wrong_pixels);
 
 // The same by the first of other_rules.h.
-[[nodiscard]] std::optional<OtherProfile> right_by_other_profile(const RunInput& input, const Colors& candidate,
+[[nodiscard]] std::optional<OtherProfile> right_by_other_profile(const peeling::FrameRequest& input,
+                                                                 const Colors& candidate,
                                                                  const std::vector<std::uint32_t>& wrong_pixels,
                                                                  std::span<const pipeline::DeviceProfile> more = {});
 

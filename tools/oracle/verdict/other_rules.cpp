@@ -29,7 +29,7 @@ constexpr std::string_view shading_option(Interpolation interpolation) {
 
 class Lister {
   public:
-    explicit Lister(const RunInput& given) : given_{given} {}
+    explicit Lister(const peeling::FrameRequest& given) : given_{given} {}
 
     // Adds the rules of a profile with either origin and every shading, but for those given.
     void add(const std::string& name, const DeviceProfile& profile) {
@@ -68,12 +68,12 @@ class Lister {
                });
     }
 
-    const RunInput& given_;
+    const peeling::FrameRequest& given_;
 };
 
 }  // namespace
 
-std::vector<OtherRules> other_rules(const RunInput& given, std::span<const DeviceProfile> more) {
+std::vector<OtherRules> other_rules(const peeling::FrameRequest& given, std::span<const DeviceProfile> more) {
     Lister lister{given};
     lister.add("the rules of profile " + given.profile.name, given.profile);
     const int samples = given.options.sampling.samples;

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "peeling/frame_request.h"
 #include "pipeline/device/profile.h"
 #include "rasterizer/rules/raster_state.h"
-#include "tools/oracle/run_input.h"
 
 namespace strata::oracle::verdict {
 
@@ -24,7 +24,8 @@ struct OtherRules {
 };
 
 // Those that the scene was not given with, the simplest first.
-[[nodiscard]] std::vector<OtherRules> other_rules(const RunInput& given, std::span<const pipeline::DeviceProfile> more);
+[[nodiscard]] std::vector<OtherRules> other_rules(const peeling::FrameRequest& given,
+                                                  std::span<const pipeline::DeviceProfile> more);
 
 // "  by the rules of profile llvmpipe; by those of geforce8 it would be wrong at 3 pixels\n"
 [[nodiscard]] std::string description(const OtherRules& rules, const std::string& given, std::size_t wrong_pixels);

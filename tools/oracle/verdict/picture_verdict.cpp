@@ -54,7 +54,8 @@ std::string words_of(const ExchangedDepths& exchanged, const pipeline::DrawList&
 
 class PictureJudge {
   public:
-    PictureJudge(const RunInput& input, const PictureQuestion& question) : input_{input}, question_{question} {
+    PictureJudge(const peeling::FrameRequest& input, const PictureQuestion& question)
+        : input_{input}, question_{question} {
         result_.fragments = std::make_unique<SceneFragments>(input, input.options.fragment_memory);
         scene().setting().work->show_by(question.progress);
         scene().set_stored(readings(question)[0]);
@@ -190,14 +191,14 @@ class PictureJudge {
             excused.either_way, excused.all);
     }
 
-    const RunInput& input_;
+    const peeling::FrameRequest& input_;
     const PictureQuestion& question_;
     PictureVerdict result_{};
 };
 
 }  // namespace
 
-PictureVerdict judge_picture(const RunInput& input, const PictureQuestion& question) {
+PictureVerdict judge_picture(const peeling::FrameRequest& input, const PictureQuestion& question) {
     PictureVerdict verdict = PictureJudge{input, question}.decide();
     verdict.fragments->setting().work->show_by({});  // they outlive the question
     return verdict;

@@ -14,9 +14,9 @@
 #include <span>
 #include <string>
 
+#include "peeling/frame_request.h"
 #include "tools/oracle/fragments/form.h"
 #include "tools/oracle/fragments/fragments.h"
-#include "tools/oracle/run_input.h"
 #include "tools/oracle/show_progress.h"
 #include "tools/oracle/verdict/verdict.h"
 
@@ -49,7 +49,7 @@ struct PictureVerdict {
 };
 
 // Objects that `input` and `question` refer to must outlive the result. Throws Refused and InputError like a renderer.
-[[nodiscard]] PictureVerdict judge_picture(const RunInput& input, const PictureQuestion& question);
+[[nodiscard]] PictureVerdict judge_picture(const peeling::FrameRequest& input, const PictureQuestion& question);
 
 [[nodiscard]] std::string to_text(const PictureVerdict& verdict, const pipeline::DrawList& list);
 // With the form that colours were read in and the name of the profile as its last keys.

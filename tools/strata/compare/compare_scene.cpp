@@ -73,7 +73,7 @@ oracle::Picture drawn_by(const peeling::Algorithm& algorithm, const Session& ses
                          const oracle::Picture& candidate) {
     peeling::RenderOptions options = run.render;
     options.audit = options.keep_layers = false;
-    peeling::Renderer renderer{session.scene.list, session.view, session.profile, options};
+    peeling::Renderer renderer{session.request(options)};
     peeling::RenderResult result = renderer.render(algorithm);
     if (result.refusal) throw pipeline::Refused{session.profile, *std::move(result.refusal)};
     oracle::Picture picture{.file = run.scene, .targets = {oracle::as_target(result.frame.color, "color")}};
@@ -252,7 +252,8 @@ oracle::ShowProgress shares_of(Progress& bar) {
     return [&bar](double share) { bar.show(share); };
 }
 
-std::vector<std::string> forgotten(const SceneQuestion& question, const oracle::RunInput& input, const auto& verdict) {
+std::vector<std::string> forgotten(const SceneQuestion& question, const peeling::FrameRequest& input,
+                                   const auto& verdict) {
     Progress bar("options of the view");
     return oracle::forgotten_options(input, verdict, camera_in_words(question.run), shares_of(bar));
 }
@@ -260,15 +261,15 @@ std::vector<std::string> forgotten(const SceneQuestion& question, const oracle::
 // The verdict on a picture with several samples per pixel.
 int compare_resolved(const SceneQuestion& question, const Session& session, const oracle::Picture& candidate) {
     const oracle::TargetImage& colors = colors_of(candidate);
-    const oracle::RunInput input{session.scene.list, session.view, session.profile, question.run.render,
-                                 question.run.scene_options.color_space};
+    const peeling::FrameRequest input = session.request(question.run.render, question.run.scene_options.color_space);
     const oracle::SamplesVerdict verdict = [&] {
         Progress bar("verdict");
-        return judge_samples(input, {.colors = colors,
-                                     .is_form_stated = question.is_form_stated,
-                                     .has_alpha = question.has_alpha,
-                                     .algorithm = question.algorithm.empty() ? nullptr : question.run.algorithms[0],
-                                     .progress = shares_of(bar)});
+        return oracle::judge_samples(input,
+                                     {.colors = colors,
+                                      .is_form_stated = question.is_form_stated,
+                                      .has_alpha = question.has_alpha,
+                                      .algorithm = question.algorithm.empty() ? nullptr : question.run.algorithms[0],
+                                      .progress = shares_of(bar)});
     }();
     const std::vector<std::string> hints = forgotten(question, input, verdict);
     const std::string text = oracle::with_forgotten(to_text(verdict), hints);
@@ -282,7 +283,7 @@ int compare_resolved(const SceneQuestion& question, const Session& session, cons
 
 namespace {
 
-oracle::verdict::PictureVerdict judged(const SceneQuestion& question, const oracle::RunInput& input,
+oracle::verdict::PictureVerdict judged(const SceneQuestion& question, const peeling::FrameRequest& input,
                                        const oracle::TargetImage& colors) {
     Progress bar("verdict");
     return oracle::verdict::judge_picture(
@@ -306,8 +307,7 @@ std::string if_linear(SceneQuestion question, const oracle::verdict::Verdict& fo
         return "";
     question.run.scene_options.color_space = pipeline::ColorSpace::linear;
     const Session session = open_at_size(question, colors, candidate.file);
-    const oracle::RunInput input{session.scene.list, session.view, session.profile, question.run.render,
-                                 pipeline::ColorSpace::linear};
+    const peeling::FrameRequest input = session.request(question.run.render, pipeline::ColorSpace::linear);
     return judged(question, input, colors).is_right() ? "  with --color-space linear the picture is right\n" : "";
 }
 
@@ -318,8 +318,8 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
     const Session session = open_at_size(question, colors, candidate.file);
     if (question.run.sampling.samples > 1) return compare_resolved(question, session, candidate);
     const pipeline::DrawList& list = session.scene.list;
-    const oracle::RunInput input{list, session.view, session.profile, question.run.render,
-                                 question.run.scene_options.color_space};
+    const peeling::FrameRequest input{list, session.view, session.profile, question.run.render,
+                                      question.run.scene_options.color_space};
     oracle::verdict::PictureVerdict verdict = judged(question, input, colors);
     verdict.reading += if_linear(question, verdict.found, candidate);
     verdict.found.distinguishing_command = distinguishing_command(verdict.found);

@@ -92,9 +92,8 @@ struct OpenCase {
         return passes.empty() ? nullptr : &passes;
     }
     [[nodiscard]] const peeling::Algorithm& algorithm() const { return *options.run.algorithms[0]; }
-    [[nodiscard]] oracle::RunInput input() const {
-        return {session.scene.list, session.view, session.profile, options.run.render,
-                options.run.scene_options.color_space};
+    [[nodiscard]] peeling::FrameRequest input() const {
+        return session.request(options.run.render, options.run.scene_options.color_space);
     }
     [[nodiscard]] oracle::Comparison comparison() const {
         return oracle::compare(stored_like(mistake_renderer->right(), candidate, input().space), candidate,

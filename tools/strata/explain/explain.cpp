@@ -38,8 +38,7 @@ int explain_candidate(CandidateQuestion question) {
                                                   std::to_string(question.x) + "," + std::to_string(question.y));
     SceneQuestion scene{.run = std::move(question.run), .algorithm = "", .json = question.json};
     const Session session = open_at_size(scene, colors, question.candidate);
-    oracle::verdict::SceneFragments fragments{{session.scene.list, session.view, session.profile, scene.run.render},
-                                              scene.run.render.fragment_memory};
+    oracle::verdict::SceneFragments fragments{session.request(scene.run.render), scene.run.render.fragment_memory};
     const oracle::verdict::Formed formed = oracle::verdict::formed(fragments, colors, false);
     const oracle::verdict::Colors seen = formed.colors();
     const oracle::verdict::Verdict verdict = judge(fragments, seen);
@@ -73,7 +72,7 @@ std::optional<Pixel> to_pixel(std::string_view text) {
 template <class Explained, class ExplainOne>
 std::string explained(ExplainOptions& options, const ExplainOne& explain_one) {
     const Session session = open_session(options.run);
-    const oracle::RunInput input{session.scene.list, session.view, session.profile, options.run.render};
+    const peeling::FrameRequest input = session.request(options.run.render);
     std::vector<Explained> histories;
     for (const peeling::Algorithm* algorithm : options.run.algorithms) {
         try {
@@ -112,12 +111,13 @@ int explain(ExplainOptions& options) {
                                    options.pixel ? fmt::format("{},{}", x, y) : "none"));
     if (options.run.sampling.samples > 1 && !options.run.sample) {
         if (!options.svg.empty()) throw CLI::ValidationError("--svg shows one sample: add --sample N");
-        print(explained<oracle::SampledHistory>(options, [&](const oracle::RunInput& input, const auto& algorithm) {
-            return oracle::explain_samples(input, algorithm, x, y);
-        }));
+        print(
+            explained<oracle::SampledHistory>(options, [&](const peeling::FrameRequest& input, const auto& algorithm) {
+                return oracle::explain_samples(input, algorithm, x, y);
+            }));
         return 0;
     }
-    print(explained<oracle::History>(options, [&](const oracle::RunInput& input, const auto& algorithm) {
+    print(explained<oracle::History>(options, [&](const peeling::FrameRequest& input, const auto& algorithm) {
         return oracle::explain(input, algorithm, {x, y, x + 1, y + 1}).at(0);
     }));
     return 0;

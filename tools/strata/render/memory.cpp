@@ -41,8 +41,7 @@ void check_memory(const RunOptions& options, const Session& session, const peeli
     if (!options.max_memory) *limit += held;
     if (is_surely_enough(options, *limit, held)) return;
     const std::uint64_t need =
-        held + writer_bytes(options) +
-        peeling::memory_need(session.scene.list, session.view, session.profile, options.render, algorithm).total();
+        held + writer_bytes(options) + peeling::memory_need(session.request(options.render), algorithm).total();
     if (need <= *limit) return;
     throw CLI::ValidationError("--max-memory",
                                algorithm.name + " at " + std::to_string(options.render.width) + "x" +

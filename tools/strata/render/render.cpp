@@ -70,8 +70,7 @@ int render_mistaken(RunOptions& options, const std::vector<const oracle::Mistake
     if (options.algorithms.size() != 1) throw CLI::ValidationError("--mistake takes one algorithm");
     if (options.output.empty()) throw CLI::ValidationError("--mistake needs -o FILE");
     const Session session = open_session(options);
-    const oracle::MistakeRenderer mistake_renderer{{session.scene.list, session.view, session.profile, options.render},
-                                                   *options.algorithms[0]};
+    const oracle::MistakeRenderer mistake_renderer{session.request(options.render), *options.algorithms[0]};
     const auto picture = mistake_renderer.with(mistakes);
     if (!picture)
         throw CLI::ValidationError("--mistake",

@@ -235,7 +235,7 @@ int run_algorithms(RunOptions& options, const Writer& write) {
     const Session session = open_session(options);
     for (const peeling::Algorithm* algorithm : options.algorithms) check_memory(options, session, *algorithm);
     // One renderer is used for all algorithms, so geometry is transformed and set up once.
-    peeling::Renderer renderer(session.scene.list, session.view, session.profile, options.render);
+    peeling::Renderer renderer(session.request(options.render));
     std::vector<RunSummary> runs;
     for (const peeling::Algorithm* algorithm : options.algorithms) {
         scenes::set_interrupt_message(undone(options, runs.size()));

@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "peeling/frame_request.h"
 #include "scenes/files/image_io.h"
 #include "tools/strata/options/options.h"
 
@@ -23,6 +24,11 @@ struct Session {
     scenes::Scene scene;
     pipeline::DeviceProfile profile;
     pipeline::View view;
+    // The session must outlive the request.
+    [[nodiscard]] peeling::FrameRequest request(const peeling::RenderOptions& options,
+                                                pipeline::ColorSpace space = pipeline::ColorSpace::encoded) const {
+        return {scene.list, view, profile, options, space};
+    }
 };
 
 // The scene's camera of that name, or the camera in a file, which is in `folder` unless that is empty. Throws

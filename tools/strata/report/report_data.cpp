@@ -131,7 +131,7 @@ class Builder {
           session_{session},
           region_{region},
           samples_{options.render.sampling.samples},
-          renderer_{session.scene.list, session.view, session.profile, options.render} {
+          renderer_{session.request(options.render)} {
         check_samples();
     }
 
@@ -184,8 +184,8 @@ class Builder {
     }
 
     // Of sample 0.
-    [[nodiscard]] oracle::RunInput input() const {
-        oracle::RunInput input{session_.scene.list, session_.view, session_.profile, options_.render};
+    [[nodiscard]] peeling::FrameRequest input() const {
+        peeling::FrameRequest input = session_.request(options_.render);
         if (samples_ > 1) pipeline::set_sample(input.options.raster, session_.profile.sample_positions, samples_, 0);
         input.options.sampling = {};
         return input;

@@ -144,9 +144,9 @@ Columns columns_of(std::vector<pipeline::CapturedFragment> fragments, std::size_
     return columns;
 }
 
-Survey survey(const oracle::RunInput& input, const peeling::Algorithm& algorithm, const Columns& columns) {
+Survey survey(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm, const Columns& columns) {
     Observing observing{algorithm, columns, {input.options, input.profile}};
-    oracle::RunInput everything = input;
+    peeling::FrameRequest everything = input;
     everything.options.effects = pipeline::Effects::all;
     const pipeline::Observer observer{
         .step = [&](const pipeline::Region&, const pipeline::StepEvent& event) { observing.step(event); },

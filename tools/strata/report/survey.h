@@ -31,6 +31,7 @@ struct Survey {
 };
 inline constexpr std::uint16_t far_end = 0x8000;
 
-[[nodiscard]] Survey survey(const oracle::RunInput& input, const peeling::Algorithm& algorithm, const Columns& columns);
+[[nodiscard]] Survey survey(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
+                            const Columns& columns);
 
 }  // namespace strata::tools

@@ -130,8 +130,8 @@ namespace {
 
 constexpr int samples = 4;
 
-RunInput of_samples(const OpenScene& opened) {
-    RunInput input = opened.input();
+peeling::FrameRequest of_samples(const OpenScene& opened) {
+    peeling::FrameRequest input = opened.input();
     input.options.sampling.samples = samples;
     return input;
 }
@@ -140,7 +140,7 @@ RunInput of_samples(const OpenScene& opened) {
 Picture mean_of_samples(const OpenScene& opened, const Mistake& mistake) {
     pipeline::ColorResolve resolve{samples, opened.profile.resolve, opened.profile.color_rounding()};
     for (std::size_t number = 0; number < samples; ++number) {
-        RunInput input = opened.input();
+        peeling::FrameRequest input = opened.input();
         pipeline::set_sample(input.options.raster, opened.profile.sample_positions, samples, number);
         resolve.add(color_image(MistakeRenderer{input, *opened.algorithm}.with(mistake).value()));
     }
@@ -231,7 +231,7 @@ TEST_CASE("a picture that is resolved wrongly is sample 0 or the mean of decoded
     CHECK(wrong == 0);
     CHECK(lighter > 100);
     CHECK(darker == 0);
-    RunInput masked = opened.input();
+    peeling::FrameRequest masked = opened.input();
     masked.options.raster.sample_coverage.mask = 0b0011;
     CHECK(is_equal(mistake_renderer.with(*find_mistake("sample_mask_left_set")).value(),
                    MistakeRenderer{masked, *opened.algorithm}.right()));

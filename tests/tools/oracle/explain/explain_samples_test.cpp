@@ -15,7 +15,8 @@ using namespace strata::testing;
 
 namespace {
 
-History history_of_sample(RunInput input, const peeling::Algorithm& algorithm, std::size_t sample, int x, int y) {
+History history_of_sample(peeling::FrameRequest input, const peeling::Algorithm& algorithm, std::size_t sample, int x,
+                          int y) {
     pipeline::set_sample(input.options.raster, input.profile.sample_positions, input.options.sampling.samples, sample);
     input.options.sampling = {};
     return explain(input, algorithm, {x, y, x + 1, y + 1}).at(0);
@@ -27,7 +28,7 @@ TEST_CASE("the histories of a pixel's samples are those of their own frames and 
     const ExplainedScene column = explained_scene("teapot", 16, 12);
     for (const char* name : {"front_to_back", "dual", "weighted_average"})
         for (const int samples : {2, 4}) {
-            RunInput input = column.input("geforce8");
+            peeling::FrameRequest input = column.input("geforce8");
             input.options.sampling.samples = samples;
             const peeling::Algorithm& algorithm = *peeling::find_algorithm(name);
             const peeling::RenderResult usual =
@@ -69,7 +70,7 @@ TEST_CASE("the histories of a pixel's samples are those of their own frames and 
 
 TEST_CASE("the report of a pixel's samples has a section for each and the resolved picture") {
     const ExplainedScene column = explained_scene("planes:count=2", 16, 12);
-    RunInput input = column.input("geforce8");
+    peeling::FrameRequest input = column.input("geforce8");
     input.options.sampling = {.samples = 2, .loads = pipeline::LoadedSample::zero};
     input.options.max_passes = 8;
     const std::vector<SampledHistory> histories{

@@ -38,7 +38,7 @@ TEST_CASE("the history of a dual peel has the pass and the end at which each fra
 
 TEST_CASE("a fragment's depth by each path is the code that a frame with that path stores") {
     const ExplainedScene column = explained_scene("planes:gap=4", 20, 14);
-    RunInput input = column.input("geforce3");
+    peeling::FrameRequest input = column.input("geforce3");
     input.options.depth = pipeline::DepthFormat::d24;
     const peeling::Algorithm& algorithm = *peeling::find_algorithm("depth_units");
     const auto histories = explain(input, algorithm, {3, 2, 17, 12});
@@ -79,7 +79,7 @@ TEST_CASE("a fragment's depth by each path is the code that a frame with that pa
 
 TEST_CASE("the history of a peel that compares another depth than it stores has both depths") {
     const ExplainedScene column = explained_scene("planes:gap=4", 20, 14);
-    RunInput input = column.input("geforce3");
+    peeling::FrameRequest input = column.input("geforce3");
     input.options.depth = pipeline::DepthFormat::d24;
     const auto histories = explain(input, *peeling::find_algorithm("shadow_map"), {8, 6, 12, 9});
     int compared = 0, wrong = 0, apart = 0;
@@ -105,7 +105,7 @@ TEST_CASE("opaque and masked fragments have a history that ends with the depth a
     auto& instances = room.scene.list.instances;
     const auto once = instances;  // drawn again at the same depths, which LESS rejects
     instances.insert(instances.end(), once.begin(), once.end());
-    const RunInput input = room.input("geforce8");
+    const peeling::FrameRequest input = room.input("geforce8");
     int told = 0, cut = 0, wrong = 0, behind = 0;
     for (const History& history : explain(input, *peeling::find_algorithm("front_to_back"), {0, 0, 64, 64})) {
         std::optional<std::uint32_t> depth;

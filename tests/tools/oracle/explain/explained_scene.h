@@ -3,10 +3,10 @@
 #pragma once
 #include <string>
 
+#include "peeling/frame_request.h"
 #include "peeling/render.h"
 #include "scenes/camera.h"
 #include "scenes/scene.h"
-#include "tools/oracle/run_input.h"
 
 namespace strata::testing {
 
@@ -14,7 +14,7 @@ struct ExplainedScene {
     scenes::Scene scene;
     pipeline::View view;
     peeling::RenderOptions options;
-    [[nodiscard]] oracle::RunInput input(const char* profile) const {
+    [[nodiscard]] peeling::FrameRequest input(const char* profile) const {
         return {scene.list, view, *pipeline::find_profile(profile), options};
     }
 };

@@ -14,7 +14,8 @@ using namespace strata::oracle;
 
 namespace {
 
-std::map<std::string, scenes::NumberArray> arrays_of(const RunInput& input, nlohmann::ordered_json& draws) {
+std::map<std::string, scenes::NumberArray> arrays_of(const peeling::FrameRequest& input,
+                                                     nlohmann::ordered_json& draws) {
     std::map<std::string, scenes::NumberArray> arrays;
     scenes::PackFiles files{
         [&](const std::string& name, const std::string& bytes) { arrays[name] = scenes::parse_npy(bytes, name); }};
@@ -108,7 +109,7 @@ TEST_CASE("an order lists every triangle once where an algorithm sorts") {
     const scenes::Scene scene = scenes::load_scene("planes:count=4,cells=1", {});
     peeling::RenderOptions options;
     const pipeline::View view = scenes::orbit_view(scene.bounds, 0, 0, 1);
-    const RunInput input{scene.list, view, *pipeline::find_profile("ideal"), options};
+    const peeling::FrameRequest input{scene.list, view, *pipeline::find_profile("ideal"), options};
     CHECK(submission_of(input, peeling::ListOrder::given).empty());
     auto order = submission_of(input, peeling::ListOrder::back_to_front);
     std::size_t triangles = 0;

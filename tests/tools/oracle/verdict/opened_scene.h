@@ -33,7 +33,7 @@ struct OpenedScene {
         scene = scenes::load_scene(name, {.color_space = pipeline::ColorSpace::linear});
         is_linear = true;
     }
-    [[nodiscard]] oracle::RunInput input() const { return {scene.list, view, profile, options}; }
+    [[nodiscard]] peeling::FrameRequest input() const { return {scene.list, view, profile, options}; }
     [[nodiscard]] oracle::verdict::SceneFragments fragments() const {
         return oracle::verdict::SceneFragments{input(), std::uint64_t{1} << 30};
     }

@@ -33,9 +33,9 @@ ResolvedVerdict judged_samples(const OpenedScene& opened, const oracle::TargetIm
     for (std::size_t number = 0; number < samples; ++number) {
         peeling::RenderOptions options = opened.options;
         pipeline::set_sample(options.raster, opened.profile.sample_positions, samples, number);
-        all.push_back(
-            std::make_unique<SceneFragments>(oracle::RunInput{opened.scene.list, opened.view, opened.profile, options},
-                                             std::numeric_limits<std::uint64_t>::max()));
+        all.push_back(std::make_unique<SceneFragments>(
+            peeling::FrameRequest{opened.scene.list, opened.view, opened.profile, options},
+            std::numeric_limits<std::uint64_t>::max()));
     }
     return judge_resolved(all, Colors{picture});
 }

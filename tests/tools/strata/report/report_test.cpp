@@ -211,7 +211,7 @@ TEST_CASE("the passes and ends at which fragments are peeled are those of every 
                                                                {"random:triangles=40", "ideal", "unsorted"}}));
     INFO(name << " of " << scene << " on " << profile);
     const ReportScene made = report_scene(scene, profile);
-    const oracle::RunInput input{made.scene.list, made.view, made.profile, made.options};
+    const peeling::FrameRequest input{made.scene.list, made.view, made.profile, made.options};
     const peeling::Algorithm& algorithm = *peeling::find_algorithm(name);
     peeling::Renderer renderer(made.scene.list, made.view, made.profile, made.options);
     const tools::Columns columns =
@@ -249,7 +249,7 @@ TEST_CASE("the test that a report lists as rejecting most fragments is the one t
                                                                            {"geforce3", "shadow_map"}}));
     INFO(name << " on " << profile);
     const ReportScene made = report_scene("random:triangles=40", profile);
-    const oracle::RunInput input{made.scene.list, made.view, made.profile, made.options};
+    const peeling::FrameRequest input{made.scene.list, made.view, made.profile, made.options};
     const peeling::Algorithm& algorithm = *peeling::find_algorithm(name);
     peeling::Renderer renderer(made.scene.list, made.view, made.profile, made.options);
     const tools::Columns columns =
