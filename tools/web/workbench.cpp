@@ -237,9 +237,7 @@ Workbench::Json Workbench::explain(const Json& question) {
     open(question);
     const auto [x, y] = question.at("pixel").get<std::array<int, 2>>();
     const peeling::FrameRequest input{scene_->list, view_, profile_, options_};
-    if (options_.sampling.samples > 1)
-        return {{"text", oracle::to_text(oracle::explain_samples(input, algorithm_of(question), x, y))}};
-    return {{"text", oracle::to_text(oracle::explain(input, algorithm_of(question), {x, y, x + 1, y + 1}).at(0))}};
+    return {{"text", oracle::to_text(oracle::explain_samples(input, algorithm_of(question), x, y))}};
 }
 
 Workbench::Json Workbench::answer_of(const Json& question) {

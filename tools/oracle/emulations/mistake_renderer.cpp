@@ -99,7 +99,8 @@ std::optional<AlteredRun> MistakeRenderer::altered_run(std::span<const Mistake* 
     AlteredRun e = altered_run();
     const int given_limit = e.options.max_passes;
     for (const Mistake* mistake : mistakes)
-        if (!mistake->make(e)) return std::nullopt;
+        if ((mistake->part == ChangedPart::samples && e.options.sampling.samples == 1) || !mistake->make(e))
+            return std::nullopt;
     const bool is_limited =
         e.options.max_passes != given_limit || e.options.termination.rule == pipeline::TerminationRule::fixed;
     const int limit = limit_ > 0 ? limit_ : right_run_.is_endless ? right_run_.passes : 2 * right_run_.passes + 8;

@@ -1,7 +1,7 @@
 // tools/oracle/emulations/of_samples.cpp - mistakes with the samples of a pixel: which of them programs run for and
 // load.
 //
-// Rule     None is applicable to a frame of one sample per pixel.
+// Rule     MistakeRenderer makes none of them in a frame of one sample per pixel.
 // Source   pipeline/reference/fragment-stages.md 13.5; tools/lab/multisampling/MULTISAMPLING.md counts what each loses.
 #include "scenes/numbers/srgb_encode.h"
 #include "tools/oracle/emulations/catalogue.h"
@@ -16,16 +16,14 @@ using rasterizer::Interpolation;
 
 // Programs that load another sample than their own.
 bool loads(AlteredRun& e, LoadedSample in_peels, LoadedSample in_composites) {
-    if (e.options.sampling.samples == 1 ||
-        (e.options.sampling.loads == in_peels && e.options.sampling.composites == in_composites))
-        return false;
+    if (e.options.sampling.loads == in_peels && e.options.sampling.composites == in_composites) return false;
     e.options.sampling.loads = in_peels;
     e.options.sampling.composites = in_composites;
     return true;
 }
 
 bool shades_at(AlteredRun& e, Interpolation place) {
-    if (e.options.sampling.samples == 1 || e.options.raster.interpolation == place) return false;
+    if (e.options.raster.interpolation == place) return false;
     e.options.raster.interpolation = place;
     return true;
 }
@@ -35,7 +33,7 @@ bool shades_pixels_and_loads(AlteredRun& e, Interpolation place, LoadedSample in
 }
 
 bool covers_by_alpha(AlteredRun& e) {
-    if (e.options.sampling.samples == 1 || e.options.raster.sample_coverage.by_alpha) return false;
+    if (e.options.raster.sample_coverage.by_alpha) return false;
     return e.options.raster.sample_coverage.by_alpha = true;
 }
 
@@ -70,7 +68,6 @@ pipeline::Image mean_of_decoded(const std::vector<pipeline::Image>& samples) {
 const Mistake sample_mistakes[] = {
     {"no_samples", "one sample per pixel: multisampling is off", ChangedPart::samples,
      [](AlteredRun& e) {
-         if (e.options.sampling.samples == 1) return false;
          e.options.sampling.samples = 1;
          e.options.sampling.resolve = pipeline::Resolve::box;
          return true;
@@ -115,20 +112,18 @@ const Mistake sample_mistakes[] = {
      [](AlteredRun& e) {
          std::uint8_t& mask = e.options.raster.sample_coverage.mask;
          const auto half = static_cast<std::uint8_t>((1 << (e.options.sampling.samples / 2)) - 1);
-         if (e.options.sampling.samples == 1 || mask == half) return false;
+         if (mask == half) return false;
          mask = half;
          return true;
      }},
     {"sample_0_shown", "sample 0 is shown: the samples are never resolved", ChangedPart::samples,
      [](AlteredRun& e) {
-         if (e.options.sampling.samples == 1) return false;
          e.resolve = [](const std::vector<pipeline::Image>& samples) { return samples[0]; };
          return true;
      }},
     {"resolved_in_linear_light", "encoded samples resolved as if their values were linear: decoded, and encoded again",
      ChangedPart::samples,
      [](AlteredRun& e) {
-         if (e.options.sampling.samples == 1) return false;
          e.resolve = mean_of_decoded;
          return true;
      }},

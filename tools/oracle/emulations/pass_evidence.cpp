@@ -30,7 +30,6 @@ std::uint32_t rounding_of(Code code) noexcept {
 // One target, or one for each sample, with the names that pack_pictures.h gives them.
 std::vector<TargetImage> targets_of(const NamedImage& named) {
     const pipeline::Image& image = named.image;
-    if (image.samples == 1) return {as_target(image, named.name)};
     std::vector<TargetImage> targets;
     for (int sample = 0; sample < image.samples; ++sample) {
         pipeline::Image one{image.format, image.width, image.height};
@@ -38,7 +37,7 @@ std::vector<TargetImage> targets_of(const NamedImage& named) {
             for (int x = 0; x < image.width; ++x)
                 for (int c = 0; c < image.channels(); ++c)
                     one.codes[one.index(x, y, c)] = image.codes[image.index(x, y, c, sample)];
-        targets.push_back(as_target(one, fmt::format("{}.sample{}", named.name, sample)));
+        targets.push_back(as_target(one, name_of_sample(named.name, sample, image.samples)));
     }
     return targets;
 }

@@ -372,15 +372,21 @@ SampledHistory explain_samples(const peeling::FrameRequest& input, const peeling
     for (std::size_t sample = 0; sample < recordings.size(); ++sample) {
         peeling::FrameRequest single = input;
         single.options.sampling = {};
-        if (input.options.sampling.samples > 1)
+        if (recordings.size() > 1)
             pipeline::set_sample(single.options.raster, input.profile.sample_positions, input.options.sampling.samples,
                                  sample);
         result.points.push_back(single.options.raster.sample.value_or(rasterizer::SamplePoint{}));
         result.samples.push_back(std::move(*recordings[sample]).finish(single, algorithm, in_memory).at(0));
-        result.samples.back().sample = static_cast<int>(sample);
+        if (recordings.size() > 1) result.samples.back().sample = static_cast<int>(sample);
     }
     for (int c = 0; c < picture.channels(); ++c) result.resolved.push_back(picture.codes[picture.index(x, y, c)]);
     return result;
+}
+
+std::vector<History> of_sample(std::span<const SampledHistory> histories, std::size_t sample) {
+    std::vector<History> chosen;
+    for (const SampledHistory& history : histories) chosen.push_back(history.samples.at(sample));
+    return chosen;
 }
 
 std::vector<std::vector<int>> composited(const History& history) {

@@ -8,6 +8,7 @@
 #pragma once
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -103,8 +104,8 @@ struct History {
 [[nodiscard]] std::vector<History> explain(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
                                            const rasterizer::Rect& pixels);
 
-// The histories of a pixel's samples: counts of queries are of all samples. What a line reads is what its own sample
-// stores, whichever sample the program loads (Multisampling::loads).
+// The histories of a pixel's samples, one or several: counts of queries are of all samples. What a line reads is what
+// its own sample stores, whichever sample the program loads (Multisampling::loads).
 struct SampledHistory {
     std::vector<History> samples{};
     std::vector<rasterizer::SamplePoint> points{};
@@ -112,6 +113,8 @@ struct SampledHistory {
     pipeline::Format format{};
     std::vector<std::uint32_t> resolved{};  // the pixel of the picture
 };
+// The histories of one sample by all algorithms.
+[[nodiscard]] std::vector<History> of_sample(std::span<const SampledHistory> histories, std::size_t sample);
 [[nodiscard]] SampledHistory explain_samples(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
                                              int x, int y);
 

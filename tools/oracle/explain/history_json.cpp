@@ -161,6 +161,7 @@ std::string to_json(std::span<const History> histories) {
 }
 
 std::string to_json(std::span<const SampledHistory> histories) {
+    if (!histories.empty() && histories[0].samples.size() == 1) return to_json(of_sample(histories, 0));
     ordered_json document{{"histories", ordered_json::array()},
                           {"pixels", ordered_json::array()},
                           {"first_differences", first_differences(histories)}};

@@ -119,6 +119,7 @@ std::vector<std::string> first_differences(std::span<const History> histories) {
 }
 
 std::string to_text(const SampledHistory& history) {
+    if (history.samples.size() == 1) return to_text(history.samples[0]);
     std::string text;
     for (std::size_t s = 0; s < history.samples.size(); ++s)
         text +=
@@ -134,12 +135,10 @@ std::string to_text(const SampledHistory& history) {
 
 std::vector<std::string> first_differences(std::span<const SampledHistory> histories) {
     std::vector<std::string> descriptions;
-    for (std::size_t s = 0; !histories.empty() && s < histories[0].samples.size(); ++s) {
-        std::vector<History> of_sample;
-        for (const SampledHistory& history : histories) of_sample.push_back(history.samples.at(s));
-        for (const std::string& difference : first_differences(of_sample))
-            descriptions.push_back(fmt::format("sample {}: {}", s, difference));
-    }
+    const std::size_t samples = histories.empty() ? 0 : histories[0].samples.size();
+    for (std::size_t s = 0; s < samples; ++s)
+        for (const std::string& difference : first_differences(of_sample(histories, s)))
+            descriptions.push_back(samples == 1 ? difference : fmt::format("sample {}: {}", s, difference));
     return descriptions;
 }
 

@@ -68,7 +68,7 @@ void add_samples(const NumberArray& array, const ManifestValue& described, const
     const auto channels = static_cast<std::size_t>(target.channels);
     const std::string name = target.name;
     for (std::size_t sample = 0; sample < samples; ++sample) {
-        if (samples > 1) target.name = fmt::format("{}.sample{}", name, sample);
+        target.name = name_of_sample(name, static_cast<int>(sample), static_cast<int>(samples));
         target.codes.clear();
         for (std::size_t pixel = 0; pixel < target.pixels(); ++pixel)
             for (std::size_t c = 0; c < channels; ++c)

@@ -94,20 +94,20 @@ class PassCollector {
         complete(event, kind);
     }
 
-    // The image of all samples. A target that has samples of its own, as the stencil-routed k-buffer's, is of a frame
-    // of one sample.
+    // The image of all samples of the frame, and of those that a target has of its own, as the stencil-routed
+    // k-buffer's.
     [[nodiscard]] pipeline::Image image_of(const Region& region, pipeline::Target target) const {
         const auto samples = static_cast<std::size_t>(region.frame().samples());
-        if (samples == 1) return shown_image(region, target, 0);
         pipeline::Image whole;
         for (std::size_t sample = 0; sample < samples; ++sample) {
             const pipeline::Image part = shown_image(region, target, sample);
             if (sample == 0)
-                whole = pipeline::Image::for_overwrite(part.format, part.width, part.height, static_cast<int>(samples));
-            const auto channels = static_cast<std::size_t>(part.channels()), first = sample * channels;
+                whole = pipeline::Image::for_overwrite(part.format, part.width, part.height,
+                                                       static_cast<int>(samples) * part.samples);
+            const auto words = static_cast<std::size_t>(part.samples * part.channels());
             for (std::size_t pixel = 0, i = 0; i < part.codes.size(); ++pixel)
-                for (std::size_t c = 0; c < channels; ++c, ++i)
-                    whole.codes[pixel * samples * channels + first + c] = part.codes[i];
+                for (std::size_t w = 0; w < words; ++w, ++i)
+                    whole.codes[(pixel * samples + sample) * words + w] = part.codes[i];
         }
         return whole;
     }

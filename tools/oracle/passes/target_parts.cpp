@@ -9,6 +9,7 @@
 
 #include "rasterizer/base/float_environment.h"
 #include "scenes/files/image_formats.h"
+#include "tools/oracle/picture/picture.h"
 
 namespace strata::oracle {
 
@@ -65,7 +66,7 @@ void append_pixel(std::vector<std::byte>& bytes, const Image& image, const std::
 scenes::PartSource part_of(const NamedImage& target, int sample) {
     const Image& image = target.image;
     scenes::PartHeader header{.width = image.width, .height = image.height, .channels = channels_of(image.format)};
-    header.name = image.samples == 1 ? target.name : fmt::format("{}.sample{}", target.name, sample);
+    header.name = name_of_sample(target.name, sample, image.samples);
     const std::string format{pipeline::info(image.format).name};
     if (pipeline::is_color(image.format)) header.attributes["strata:format.color"] = format;
     if (pipeline::is_depth(image.format)) header.attributes["strata:format.depth"] = format;

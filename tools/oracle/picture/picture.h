@@ -23,6 +23,11 @@ struct Image;
 
 namespace strata::oracle {
 
+// The name of one sample of a target: "color.sample2", or the target's own in a frame of one sample.
+[[nodiscard]] inline std::string name_of_sample(const std::string& target, int sample, int samples) {
+    return samples == 1 ? target : target + ".sample" + std::to_string(sample);
+}
+
 enum class Meaning : std::uint8_t { color, depth, other };
 
 // The relation of colours to their alpha: unknown; not multiplied by it (PNG, TGA, BMP, TIFF); multiplied by it (EXR,

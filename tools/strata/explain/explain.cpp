@@ -1,7 +1,6 @@
 // tools/strata/explain/explain.cpp - strata explain: prints what every pass of one or more algorithms did at one pixel.
 #include <memory>
 #include <string>
-#include <type_traits>
 
 #include "pipeline/device/check.h"
 #include "scenes/files/atomic_file.h"
@@ -68,26 +67,24 @@ std::optional<Pixel> to_pixel(std::string_view text) {
     return Pixel{*x, *y};
 }
 
-// The text or the document of all algorithms; `explain_one(input, algorithm)` returns an Explained. Writes --svg.
-template <class Explained, class ExplainOne>
-std::string explained(ExplainOptions& options, const ExplainOne& explain_one) {
+// The text or the document of all algorithms. Writes --svg.
+std::string explained(ExplainOptions& options, const Pixel& pixel) {
     const Session session = open_session(options.run);
-    const peeling::FrameRequest input = session.request(options.run.render);
-    std::vector<Explained> histories;
+    const peeling::FrameRequest request = session.request(options.run.render);
+    std::vector<oracle::SampledHistory> histories;
     for (const peeling::Algorithm* algorithm : options.run.algorithms) {
         try {
-            histories.push_back(explain_one(input, *algorithm));
+            histories.push_back(oracle::explain_samples(request, *algorithm, pixel.x, pixel.y));
         } catch (const pipeline::Refused& refused) {
             if (options.run.algorithms.size() == 1) throw;
             say_error(algorithm->name + ": " + refused.what());
         }
     }
     if (histories.empty()) throw CLI::ValidationError("--algorithm", "expected one that the profile does not refuse");
-    if constexpr (std::is_same_v<Explained, oracle::History>)
-        if (!options.svg.empty()) scenes::write_file(options.svg, oracle::to_svg(histories));
+    if (!options.svg.empty()) scenes::write_file(options.svg, oracle::to_svg(oracle::of_sample(histories, 0)));
     if (options.json) return oracle::to_json(histories);
     std::string text;
-    for (const Explained& history : histories) text += oracle::to_text(history);
+    for (const oracle::SampledHistory& history : histories) text += oracle::to_text(history);
     for (const std::string& message : oracle::first_differences(histories)) text += message + '\n';
     return text;
 }
@@ -101,7 +98,6 @@ int explain(ExplainOptions& options) {
     }
     complete(options.run);
     check_outputs({{"--svg", options.svg, {".svg"}}});
-    // Lambdas of clang 14 capture no structured bindings.
     const Pixel pixel = options.pixel.value_or(Pixel{});
     const int x = pixel.x, y = pixel.y;
     const peeling::RenderOptions& render = options.run.render;
@@ -109,17 +105,9 @@ int explain(ExplainOptions& options) {
         throw CLI::ValidationError(
             "--pixel", fmt::format("expected a pixel from 0,0 to {},{}, found {}", render.width - 1, render.height - 1,
                                    options.pixel ? fmt::format("{},{}", x, y) : "none"));
-    if (options.run.sampling.samples > 1 && !options.run.sample) {
-        if (!options.svg.empty()) throw CLI::ValidationError("--svg shows one sample: add --sample N");
-        print(
-            explained<oracle::SampledHistory>(options, [&](const peeling::FrameRequest& input, const auto& algorithm) {
-                return oracle::explain_samples(input, algorithm, x, y);
-            }));
-        return 0;
-    }
-    print(explained<oracle::History>(options, [&](const peeling::FrameRequest& input, const auto& algorithm) {
-        return oracle::explain(input, algorithm, {x, y, x + 1, y + 1}).at(0);
-    }));
+    if (options.run.sampling.samples > 1 && !options.run.sample && !options.svg.empty())
+        throw CLI::ValidationError("--svg shows one sample: add --sample N");
+    print(explained(options, pixel));
     return 0;
 }
 
