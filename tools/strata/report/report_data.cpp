@@ -124,6 +124,11 @@ ordered_json algorithm_of(const peeling::Algorithm& algorithm) {
             {"section", algorithm.section}, {"passes", algorithm.pass_formula}, {"exact", algorithm.exact}};
 }
 
+peeling::RenderOptions with_samples_kept(peeling::RenderOptions options) {
+    options.keep_samples = true;
+    return options;
+}
+
 class Builder {
   public:
     Builder(const RunOptions& options, const Session& session, const rasterizer::Rect& region)
@@ -131,7 +136,7 @@ class Builder {
           session_{session},
           region_{region},
           samples_{options.render.sampling.samples},
-          renderer_{session.request(options.render)} {
+          renderer_{session.request(with_samples_kept(options.render))} {
         check_samples();
     }
 
@@ -251,6 +256,9 @@ class Builder {
         entry["stats"].erase("seconds");  // so that the same command writes the same bytes
         entry["picture"] =
             picture_of(cropped(result.frame.color, region_), pipeline::digest(result.frame.color), data_.blobs);
+        entry["samples"] = ordered_json::array();  // none of a frame of one
+        for (const pipeline::Image& sample : result.frame.samples)
+            entry["samples"].push_back(picture_of(cropped(sample, region_), pipeline::digest(sample), data_.blobs));
         if (!algorithm.is_oracle) add_survey(algorithm, entry);
         data_.document["algorithms"].push_back(std::move(entry));
     }

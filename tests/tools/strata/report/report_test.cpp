@@ -109,7 +109,7 @@ TEST_CASE("the pictures of a report have the codes and digests of render in ever
     }
 }
 
-TEST_CASE("a report of several samples has their resolved pictures and the fragments of sample 0") {
+TEST_CASE("a report of several samples has the picture of each and the resolved one and the fragments of sample 0") {
     const Folder folder;
     const std::string options = "teapot --size 30x20 --algorithm dual,weighted_average --samples 4";
     const UnpackedReport report = report_of(folder, options);
@@ -120,6 +120,14 @@ TEST_CASE("a report of several samples has their resolved pictures and the fragm
         CHECK(entry["picture"]["digest"] == stats[i]["digest"]["color"]);
         CHECK(entry["stats"]["order_errors"] == stats[i]["order_errors"]);
         CHECK(entry["stats"]["max_difference_from_a_buffer"] == stats[i]["max_difference_from_a_buffer"]);
+        REQUIRE(entry["samples"].size() == 4);
+        for (std::size_t sample = 0; sample < 4; ++sample) {
+            const std::string command = "strata render " + options + " --sample " + std::to_string(sample);
+            REQUIRE(shell(folder, command + " -o one.exr").status == 0);
+            const auto one =
+                oracle::read_picture(folder / ("one." + entry["name"].get<std::string>() + ".exr")).targets.at(0);
+            CHECK(words_of(report, entry["samples"][sample]["codes"], 4) == one.codes);
+        }
     }
     CHECK_THAT(report.document["left_out"][0].get<std::string>(),
                Catch::Contains("fragments and histories of samples 1 to 3"));

@@ -79,6 +79,8 @@ async function unpack() {
     algorithm.codes = await wordsOf(codes, 4);
     algorithm.values = Float32Array.from(algorithm.codes, (code) => valueOf(code, format));
     algorithm.channels = channels;
+    for (const sample of algorithm.samples)
+      sample.values = Float32Array.from(await wordsOf(sample.codes, 4), (code) => valueOf(code, sample.format));
     algorithm.taken = algorithm.taken == null ? null : await wordsOf(algorithm.taken, 2);
     algorithm.killer = algorithm.killer == null ? null : await wordsOf(algorithm.killer, 1);
   }
@@ -130,6 +132,12 @@ function buildSheet() {
     card.append(picture, ...(exact() ? [error] : []), element("p", words + s.geometry_passes + (s.geometry_passes === 1 ? " pass" : " passes") +
       (s.order_errors ? "; " + s.order_errors + " fragments out of order" : "") + (s.lost_by_ties ? "; " + s.lost_by_ties + " lost by ties" : "")));
     paint(picture, (p) => colorAt(algorithm, p));
+    const row = element("div", undefined, { class: "samples" });
+    for (const [i, sample] of algorithm.samples.entries()) {
+      row.append(element("canvas", undefined, { role: "img", "aria-label": `Sample ${i} of the picture by ${algorithm.name}` }));
+      paint(row.lastChild, (p) => colorAt(sample, p));
+    }
+    if (row.firstChild) card.append(element("p", "Its samples, which the picture above resolves:"), row);
     picture.addEventListener("click", (event) => { at("right").value = algorithm.name; drawCompare(); pick(event, picture); });
     followKeys(picture);
     if (exact()) drawings.push((gain) => paint(error, (p) => heat(gain * differenceAt(algorithm, p))));
@@ -233,14 +241,17 @@ function meshOf(primitive) {
   return name;
 }
 
-function showFragments(p) {
-  const table = at("fragments");
-  table.replaceChildren();
-  const tracing = shown.filter((algorithm) => algorithm.taken);
+function emptyTable(id, names) {
   const head = element("tr");
-  fillRow(head, ["layer", "mesh", "triangle", "arrives", "depth", "bits of z", "code", "red", "green", "blue", "alpha",
-    ...tracing.map((a) => a.name)], "th");
-  table.append(head);
+  fillRow(head, names, "th");
+  at(id).replaceChildren(head);
+  return at(id);
+}
+
+function showFragments(p) {
+  const tracing = shown.filter((algorithm) => algorithm.taken);
+  const table = emptyTable("fragments", ["layer", "mesh", "triangle", "arrives", "depth", "bits of z", "code", "red", "green", "blue", "alpha",
+    ...tracing.map((a) => a.name)]);
   for (let f = columns.first[p]; f < columns.first[p + 1]; ++f) {
     const row = element("tr");
     single.setFloat32(0, columns.z[f]);
@@ -253,11 +264,7 @@ function showFragments(p) {
 }
 
 function showStored(p) {
-  const table = at("stored");
-  table.replaceChildren();
-  const head = element("tr");
-  fillRow(head, ["algorithm", "stores (bits)", "red", "green", "blue"], "th");
-  table.append(head);
+  const table = emptyTable("stored", ["algorithm", "stores (bits)", "red", "green", "blue"]);
   for (const algorithm of shown) {
     const row = element("tr"), codes = [...algorithm.codes.slice(p * algorithm.channels, (p + 1) * algorithm.channels)];
     const digits = algorithm.picture.format.includes("32f") ? 8 : algorithm.picture.format.includes("16f") ? 4 : 2;
