@@ -3,6 +3,8 @@
 //
 // Rule     The colours of PlaneAttributes with ColorInterpolation::exact_plane.
 // Tests    tests/peeling/execution/execution_test.cpp compares with literal execution.
+#include <cmath>
+
 #include "hwy/highway.h"
 #include "rasterizer/walk/row_walk-inl.h"
 
@@ -80,12 +82,13 @@ class ColorPlanes {
             for (std::size_t c = 0; c < 4; ++c) product_[i][c] = value_[i][c] * w_[i];
         for (std::size_t c = 0; c < 4; ++c) {
             const double w0 = product_[0][c], w1 = product_[1][c], w2 = product_[2][c];
+            const auto greater = [](double a, double b) { return a < b ? b : a; };
+            const double size = greater(greater(std::abs(w0), std::abs(w1)), std::abs(w2));
             w0_[c] = w0;
             d1_[c] = w1 - w0;
             d2_[c] = w2 - w0;
-            error_[c] = 0.0;
+            error_[c] = reach * (0x1p-47 * size + 0x1p-1000);  // 0 without a filter
         }
-        for (std::size_t c = 0; reach > 0.0 && c < 4; ++c) error_[c] = FilterPlane{plane_of(corners(c)), reach}.error;
     }
 
     HWY_INLINE static RationalPlane plane_of(const Corners& v) { return {{v[0], v[1], v[2]}}; }

@@ -72,6 +72,13 @@ class SmallCoverage {
         bits_[(end - 1) / 64] &= ~std::uint64_t{0} >> (64 - end) % 64;
         for (std::uint32_t word = 0; word < (count() + 3) / 4; ++word) pixels_ += std::popcount(bits_[word]);
     }
+    // Of a triangle whose box is completely in the clip, from TriangleRecord::covered: rows of four bits.
+    HWY_INLINE explicit SmallCoverage(std::uint32_t covered) : log_width_{3}, count_{4}, shape_{shapes[1]} {
+        static_assert(within_8);
+        const std::uint32_t pairs = (covered | covered << 8) & 0x00ff00ffu;
+        bits_[0] = (pairs | pairs << 4) & 0x0f0f0f0fu;
+        pixels_ = std::popcount(covered);
+    }
     HWY_INLINE int pixels() const { return pixels_; }
     HWY_INLINE std::uint32_t row(std::uint32_t r) const {
         const std::uint32_t bit = r << log_width_;
@@ -84,14 +91,20 @@ class SmallCoverage {
     HWY_INLINE std::uint32_t end_row(std::uint32_t height) const {
         return within_8 ? 8 - static_cast<std::uint32_t>(std::countl_zero(bits_[0])) / 8 : height;
     }
-    // Writes `base` plus the index of each covered pixel, ascending: pixels() of them. `numbers` must have room for
-    // block_part more.
-    HWY_INLINE void write_numbers(std::uint32_t* numbers, std::uint32_t base = 0) const {
+    // Writes the index of each covered pixel, ascending: pixels() of them. `numbers` must have room for block_part
+    // more.
+    HWY_INLINE void write_numbers(std::uint32_t* numbers) const {
+        if constexpr (within_8)
+            if (pixels_ <= 8) {  // a few bits, one after the other
+                for (std::uint64_t left = bits_[0]; left != 0; left &= left - 1)
+                    *numbers++ = static_cast<std::uint32_t>(std::countr_zero(left));
+                return;
+            }
         const Block32 d;
         for (std::uint32_t first = 0; first < 16 * count(); first += block_part) {
             const std::uint64_t own = bits_[first / 64] >> first % 64 & ((1u << block_part) - 1);
             const auto covered = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&own));
-            const auto number = hn::Add(hn::Load(d, shapes[2].column), hn::Set(d, base + first));
+            const auto number = hn::Add(hn::Load(d, shapes[2].column), hn::Set(d, first));
             hn::StoreU(hn::Compress(number, covered), d, numbers);
             numbers += std::popcount(own);
         }

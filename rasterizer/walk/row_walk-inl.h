@@ -159,10 +159,18 @@ class RowWalk {
             if (group_.small[k] == 0)
                 draw_large(triangles[k]);
             else if (group_.width[k] <= 8 && group_.height[k] <= 8)
-                draw_small<8>(triangles[k], k);
+                draw_small<8>(triangles[k], k, coverage_of(triangles[k], k));
             else
-                draw_small<16>(triangles[k], k);
+                draw_small<16>(triangles[k], k, SmallCoverage<false>{group_, k});
         }
+    }
+
+    // A tiny triangle's coverage was computed with its box.
+    [[nodiscard]] HWY_INLINE SmallCoverage<true> coverage_of(std::uint32_t index, std::size_t k) const {
+        const TriangleRecord& t = geometry_.triangles[index];
+        const bool is_whole = group_.width[k] + t.box.x0 == t.box.x1 && group_.height[k] + t.box.y0 == t.box.y1;
+        if (t.is_tiny && is_whole) return SmallCoverage<true>{t.covered};
+        return SmallCoverage<true>{group_, k};
     }
 
     [[nodiscard]] HWY_INLINE std::size_t pixel(int x, int y) const {
@@ -180,8 +188,7 @@ class RowWalk {
     }
 
     template <int widest>
-    HWY_INLINE void draw_small(std::uint32_t index, std::size_t k) {
-        const SmallCoverage<widest == 8> coverage{group_, k};
+    HWY_INLINE void draw_small(std::uint32_t index, std::size_t k, const SmallCoverage<widest == 8>& coverage) {
         if (coverage.pixels() == 0) return;
         const DrawnTriangle triangle = drawn(index, group_, k);
         const bool unsnapped = triangle.weights.kind == PixelWeights::Kind::unsnapped;
