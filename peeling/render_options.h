@@ -83,6 +83,8 @@ struct RenderOptions {
     const pipeline::VertexAlteration* vertex_alteration = nullptr;  // must outlive the renderer; may be null
 };
 
+// True if the algorithm's lists are those of pixels, which have several samples.
+[[nodiscard]] bool has_pixel_lists(const Algorithm& algorithm, const RenderOptions& options) noexcept;
 // True if the algorithm's resolve reads the fragments once, so that their memory is needed only for the tiles in
 // progress.
 [[nodiscard]] bool is_closed(const RenderOptions& options, const Algorithm& algorithm) noexcept;

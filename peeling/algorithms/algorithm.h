@@ -45,6 +45,7 @@ struct Algorithm {
     bool kills_alpha_zero = false;  // an alpha test discards fragments that store alpha 0, so they are no layers
     bool is_oracle = false;         // not an algorithm of a device: no profile rejects it
     bool whole_frame = false;       // its queries are nested: the frame runs literally, whatever --execution says
+    bool has_lists = false;         // its lists of fragments may be a pixel's, with coverage masks: --list-granularity
     bool shares_nodes = false;      // tiles share the frame's limit of nodes: runs literally if there is a limit
     bool runs_loops = false;  // its loops follow one another: runs in tiles only if each query depends on its tile
                               // alone

@@ -17,6 +17,7 @@ void check_algorithm_options(const Requirements& its, const AlgorithmOptions& o)
     its.listed("algorithm.weight", o.weight);
     its.listed("algorithm.overflow", o.overflow);
     if (o.tail) its.listed("algorithm.tail", *o.tail);
+    its.listed("algorithm.list_granularity", o.list_granularity);
     its.within("algorithm.nodes", o.nodes, 1, most_nodes);
     its.within("algorithm.pixel_nodes", o.pixel_nodes, 0, INT32_MAX);
     its.within("algorithm.frame_nodes", o.frame_nodes, 0, INT32_MAX);
@@ -104,14 +105,28 @@ std::optional<Refusal> check_order(const RenderOptions& options, DepthFormat for
 }
 
 std::optional<Refusal> check_shading(const DeviceProfile& profile, const Algorithm& algorithm,
-                                     const rasterizer::DepthRequest& depth, rasterizer::Interpolation interpolation) {
-    if (interpolation == rasterizer::Interpolation::sample) return std::nullopt;
+                                     const rasterizer::DepthRequest& depth, const RenderOptions& options) {
+    const rasterizer::Interpolation interpolation = options.raster.interpolation;
+    const bool lists_pixels = has_pixel_lists(algorithm, options);
+    if (interpolation == rasterizer::Interpolation::sample)
+        return !lists_pixels
+                   ? std::nullopt
+                   : std::optional<Refusal>{{"lists of pixels with per-sample shading, because a node has one colour "
+                                             "for all of its samples",
+                                             "", "use --shading pixel, or --list-granularity sample", algorithm.name}};
+    if (lists_pixels && options.raster.sample_coverage != rasterizer::SampleCoverage{})
+        return Refusal{"lists of pixels with samples that are dropped after the program", "",
+                       "use --list-granularity sample, or neither alpha to coverage, sample coverage nor a sample mask",
+                       algorithm.name};
     if (auto lacking = check_interpolation(profile, interpolation)) return lacking;
     if (depth.path == rasterizer::DepthPath::depth_replace)
         return Refusal{"per-pixel shading with replaced depth", "", "use --shading sample"};
-    if (algorithm.compares_own_codes)
+    if (algorithm.compares_own_codes && !lists_pixels)
         return Refusal{"per-pixel shading, because it compares its own stored depths", "",
-                       "use --shading sample, or front_to_back, dual, dual_independent or depth_units", algorithm.name};
+                       algorithm.has_lists
+                           ? "use --list-granularity pixel, or --shading sample"
+                           : "use --shading sample, or front_to_back, dual, dual_independent or depth_units",
+                       algorithm.name};
     return std::nullopt;
 }
 

@@ -20,11 +20,12 @@ void check_options(const RenderOptions& options);
 [[nodiscard]] std::optional<pipeline::Refusal> check_order(const RenderOptions& options, pipeline::DepthFormat format,
                                                            bool casts_shadows);
 
-// Programs that run once a pixel: what is not known there, and algorithms that compare what each sample stores.
+// Programs that run once a pixel: what is not known there, and algorithms that compare what each sample stores, unless
+// their lists are of pixels.
 [[nodiscard]] std::optional<pipeline::Refusal> check_shading(const pipeline::DeviceProfile& profile,
                                                              const Algorithm& algorithm,
                                                              const rasterizer::DepthRequest& depth,
-                                                             rasterizer::Interpolation interpolation);
+                                                             const RenderOptions& options);
 
 // True if a w buffer, which stores w, is compared with another path's depth, which has another scale, or the reverse.
 [[nodiscard]] bool compares_w_with_depth(const rasterizer::DepthRequest& depth) noexcept;

@@ -25,6 +25,11 @@ bool counts_passes_across_tiles(const Algorithm& algorithm, const RenderOptions&
 
 }  // namespace
 
+bool has_pixel_lists(const Algorithm& algorithm, const RenderOptions& options) noexcept {
+    return algorithm.has_lists && options.algorithm.list_granularity == ListGranularity::pixel &&
+           options.sampling.samples > 1;
+}
+
 bool is_closed(const RenderOptions& options, const Algorithm& algorithm) noexcept {
     const bool has_tail = options.algorithm.tail.value_or(Tail::none) != Tail::none;
     return algorithm.resolve_loop != nullptr && !has_tail && !options.keep_layers && options.background[3] == 1.0f;

@@ -71,7 +71,7 @@ std::optional<Refusal> refusal_of(const Algorithm& algorithm, const FrameSetup& 
     if (auto lacking = check_order(options, setup.depth.format, casts_shadows)) return lacking;
     if (options.raster.depth_clamp)
         if (auto lacking = check(profile, Feature::depth_clamp)) return lacking;
-    if (auto lacking = check_shading(profile, algorithm, request, options.raster.interpolation)) return lacking;
+    if (auto lacking = check_shading(profile, algorithm, request, options)) return lacking;
     if (auto lacking = check_results(algorithm, setup)) return lacking;
     return refusal(algorithm, profile);
 }
@@ -82,7 +82,7 @@ std::optional<Refusal> refusal_of_depth_pass(const Algorithm& one_pass, const Fr
     if (auto lacking = check_size(setup.profile, options.width, options.height)) return lacking;
     if (auto lacking = check_depth(setup.profile, setup.depth)) return lacking;
     if (auto lacking = check(setup.profile, setup.color_format)) return lacking;
-    return check_shading(setup.profile, one_pass, setup.depth, options.raster.interpolation);
+    return check_shading(setup.profile, one_pass, setup.depth, options);
 }
 
 }  // namespace strata::peeling

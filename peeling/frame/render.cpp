@@ -120,8 +120,11 @@ struct Renderer::State {
         return body_of(algorithm, {setup.options.algorithm, eye_distance(settings.view, settings.raster)});
     }
 
-    [[nodiscard]] RenderResult render(const Algorithm& algorithm, const RenderCall& call) {
+    // The order of a pixel's nodes is not that of a sample's fragments, so it has no errors that could be counted.
+    [[nodiscard]] RenderResult render(const Algorithm& given, const RenderCall& call) {
         const SimdScope kernels{setup.options.simd};
+        Algorithm algorithm = given;
+        if (has_pixel_lists(given, setup.options)) algorithm.ties = TiePolicy::none;
         if (auto lacking = refusal_of(algorithm, setup)) return refused(*std::move(lacking));
         try {
             Frame f = frame(algorithm, call.instruments);

@@ -16,6 +16,9 @@ enum class Tail : std::uint8_t { none, blend, average, weighted };
 // What happens to a fragment for which a list has no node left (algorithms.md 20).
 enum class Overflow : std::uint8_t { drop_new, drop_far, blend };
 
+// What has a list of fragments of its own in a frame of several samples (algorithms.md 21.4).
+enum class ListGranularity : std::uint8_t { sample, pixel };
+
 inline constexpr int most_nodes = 8, most_stochastic_samples = 8;
 
 struct AlgorithmOptions {
@@ -25,7 +28,8 @@ struct AlgorithmOptions {
     int pixel_nodes = 0;           // linked_list: nodes per pixel; 0: no limit
     int frame_nodes = 0;           // linked_list: nodes per frame; 0: no limit
     Overflow overflow{};           // linked_list
-    int moments = 4;               // moments: 4, 6 or 8
+    ListGranularity list_granularity{};  // algorithms with lists of fragments (Algorithm::has_lists)
+    int moments = 4;                     // moments: 4, 6 or 8
     std::optional<float> moment_bias{};  // moments: share of a fixed distribution, 0 to 1; default by `moments`
     float overestimation = 0.25f;        // moments: share of its own absorbance that dims a fragment
     int stochastic_samples = 4;          // stochastic: samples per pixel

@@ -5,6 +5,7 @@
 
 #include <bit>
 
+#include "peeling/programs/fixed_passes/pixel_lists.h"
 #include "peeling/programs/programs.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_shortcuts.h"
@@ -99,10 +100,11 @@ PixelRange next_range(std::span<const std::uint32_t> coverage, int width, std::u
     return range;
 }
 
+namespace {
+
 // Space is reserved by coverage, which also counts hidden and masked fragments, so a list may end before the next one
 // starts.
-void list_visible(Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage, Counting counting,
-                  FragmentLists& fragment_lists) {
+void start_lists(const PixelRange& pixels, std::span<const std::uint32_t> coverage, FragmentLists& fragment_lists) {
     fragment_lists.pixels = pixels;
     fragment_lists.start.resize(pixels.size());
     std::size_t fragments = 0;
@@ -116,6 +118,13 @@ void list_visible(Region& region, const PixelRange& pixels, std::span<const std:
         fragment_lists.fragments = {};  // frees the old fragments before the new ones are allocated
         fragment_lists.fragments.resize(fragments);
     }
+}
+
+}  // namespace
+
+void list_visible(Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage, Counting counting,
+                  FragmentLists& fragment_lists) {
+    start_lists(pixels, coverage, fragment_lists);
     if (counting == Counting::counted) {
         PassState state;
         state.needs = list_needs;
@@ -138,9 +147,41 @@ void list_visible(Region& region, const PixelRange& pixels, std::span<const std:
     }
 }
 
-void count_list_pass(Region& region) {
+// The mean of a pixel's samples may be less than its fragments, their sum is not.
+std::vector<std::uint32_t> coverage_of_pixels(Region& region) {
+    std::vector<std::uint32_t> coverage = coverage_of(region);
+    const std::size_t area = region.rect().area();
+    for (std::size_t element = area; element < coverage.size(); ++element)
+        coverage[element % area] += coverage[element];
+    coverage.resize(area);
+    return coverage;
+}
+
+void list_pixels(Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage, Counting counting,
+                 FragmentLists& fragment_lists) {
+    start_lists(pixels, coverage, fragment_lists);
+    fragment_lists.samples.resize(fragment_lists.fragments.size());
+    const auto file = [&](const FragmentBatch& in, const Outputs& out) {
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            if (out.alive[i] == 0) continue;
+            const std::size_t at = fragment_lists.end[in.pixel[i] - pixels.first]++;
+            fragment_lists.fragments[at] = {
+                in.code[i], 0, in.primitive[i], {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]}};
+            fragment_lists.samples[at] = out.samples[i];
+        }
+    };
+    const PassState state = state_of_pixels(region);
+    if (counting == Counting::counted)
+        static_cast<void>(
+            region.draw(state, [&](const FragmentBatch& in, const Loads&, Outputs& out) { file(in, out); }));
+    else
+        RegionShortcuts{region}.visit_pixels(state, rect_of(pixels, region.rect()), file);
+}
+
+void count_list_pass(Region& region, bool once_a_pixel) {
     PassState state;
     state.needs = {.shader_z = false, .code = false, .color = true};
+    if (once_a_pixel) state = state_of_pixels(region);
     static_cast<void>(region.draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
 }
 

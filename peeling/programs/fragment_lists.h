@@ -49,6 +49,7 @@ struct FragmentLists {
     PixelRange pixels;
     std::vector<std::size_t> start, end;   // per pixel of the range, offsets in `fragments`
     std::vector<KeyedFragment> fragments;  // may be longer than needed
+    std::vector<std::uint8_t> samples;     // of lists of pixels: the mask of each fragment
     std::vector<std::uint32_t>
         at_opaque;  // per pixel of the range: fragments that LESS hides behind a surface of the same key
     // `pixel` is an index in the region.
@@ -63,7 +64,13 @@ struct FragmentLists {
 void list_visible(pipeline::Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage,
                   pipeline::Counting counting, FragmentLists& fragment_lists);
 
+// The same for lists of pixels (fixed_passes/pixel_lists.h): ranges and coverage are of pixels, keys are the depths of
+// the program, and exact codes are 0.
+[[nodiscard]] std::vector<std::uint32_t> coverage_of_pixels(pipeline::Region& region);
+void list_pixels(pipeline::Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage,
+                 pipeline::Counting counting, FragmentLists& fragment_lists);
+
 // Counts the pass once, if its fragment lists are built in several parts.
-void count_list_pass(pipeline::Region& region);
+void count_list_pass(pipeline::Region& region, bool once_a_pixel = false);
 
 }  // namespace strata::peeling

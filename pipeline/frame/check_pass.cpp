@@ -57,6 +57,17 @@ void check_targets(const PassState& state, const std::vector<TargetStorage>& tar
                 "a target is read and written at once (a feedback loop) without ordered_rmw");
 }
 
+// Stencil and depth writes would need an order of a pixel's samples, and a selection is of samples.
+void check_once_a_pixel(const PassState& state) {
+    require(!state.once_a_pixel || (!state.alpha.enabled && !state.stencil.enabled && !state.depth.write &&
+                                    state.depth_unit_count == 0 && !state.replaces_depth && state.primitives.empty() &&
+                                    state.sample_mask == 0xff && state.selection.keeps == KeptFragments::everything),
+            "a pass once a pixel tests depth alone, without a write");
+    require(!state.once_a_pixel || (!state.needs.texcoord && !state.needs.facing && !state.needs.exact_code &&
+                                    !state.needs.reference && state.needs.units == 0),
+            "the program of a pass once a pixel reads colour and depth");
+}
+
 void refuse_if(const DeviceProfile& profile, std::optional<Refusal> lacking) {
     if (lacking) throw Refused{profile, *std::move(lacking)};
 }
@@ -65,6 +76,7 @@ void refuse_if(const DeviceProfile& profile, std::optional<Refusal> lacking) {
 
 void check_pass(const DeviceProfile& profile, const PassState& state, const std::vector<TargetStorage>& targets) {
     check_targets(state, targets);
+    check_once_a_pixel(state);
     // The checks are in the order of devices.md 9.2: if several features are missing, the first is reported. Outputs
     // without a target are not blended and not checked.
     std::vector<Blend> blends;

@@ -36,7 +36,10 @@ struct PassState {
     int depth_unit_count = 0;
     std::array<Target, 4> textures{};  // depth targets that texture units sample at any pixel of the region
     bool replaces_depth = false;       // the program may output another depth (Outputs::depth)
-    rasterizer::FragmentNeeds needs;   // values that the program reads; the stages add their own needs
+    // For a geometry pass of a frame with per-pixel shading: the program runs once for each pixel of a triangle, after
+    // the depth test of every sample (fragment-stages.md 13.9).
+    bool once_a_pixel = false;
+    rasterizer::FragmentNeeds needs;  // values that the program reads; the stages add their own needs
     std::span<const PrimitiveRange>
         primitives{};             // for a geometry pass: only these, ascending and disjoint; empty: all
     FragmentSelection selection;  // for a geometry pass: the fragments that decide its result
@@ -80,11 +83,16 @@ struct Outputs {
     Lanes<std::uint32_t> depth;
     bool replaces_depth = false;
 
+    // In a pass once a pixel: bit s is set if the fragment covers sample s and passes its test there. The program may
+    // choose other samples: colours are written to those that are set after it.
+    Lanes<std::uint8_t> samples;
+
     void discard(int i) noexcept { alive[static_cast<std::size_t>(i)] = 0; }
 };
 
 // Called with a batch in which no pixel occurs twice. In full-screen passes only `pixel`, `x`, `y` and `count` are set.
-// With several samples per pixel, `pixel` is an element of the region: sample * rect().area() + pixel.
+// With several samples per pixel, `pixel` is an element of the region: sample * rect().area() + pixel. In a pass once a
+// pixel it is the pixel's index, and `code` the depth at the pixel's point of evaluation.
 template <class P>
 concept FragmentProgram = requires(P& p, const FragmentBatch& in, const Loads& loads, Outputs& out) {
     p(in, loads, out);

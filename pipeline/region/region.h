@@ -14,6 +14,7 @@
 #include <memory>
 #include <string>
 
+#include "pipeline/fragments/pixel_fragments.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/region/region_loop.h"
 #include "pipeline/region/region_shared.h"
@@ -114,6 +115,8 @@ class Region {
     template <FragmentProgram P>
     DrawCounts draw_everything(const PassState& state, const PreparedDraw& list, P& program);
     template <FragmentProgram P>
+    DrawCounts draw_once_a_pixel(const PassState& state, const PreparedDraw& list, P& program);
+    template <FragmentProgram P>
     DrawCounts draw_visits(const PassState& state, P& program);
     template <class P>
     void run_batch(const PassState& state, P& program, FragmentBatch& batch, Outputs& out, DrawCounts& drawn);
@@ -137,6 +140,7 @@ template <FragmentProgram P>
 DrawCounts Region::draw(const PassState& given, const PreparedDraw& list, P&& program) {
     const PassState state = altered(given, PassKind::geometry);
     stages_.begin_pass(state, PassKind::geometry);
+    if (state.once_a_pixel) return draw_once_a_pixel(state, list, program);
     if (state.selection.keeps == KeptFragments::everything || !source_.find_fragments(state, list))
         return draw_everything(state, list, program);
     return shared_.instruments.check_selections ? checked([&] { return draw_visits(state, program); },
@@ -155,6 +159,20 @@ DrawCounts Region::draw_everything(const PassState& state, const PreparedDraw& l
     };
     stages_.open_cache(state);
     source_.for_each_batch(list, state, rasterizer::BatchSink{sink});
+    end_pass(state, PassKind::geometry, drawn);
+    return drawn;
+}
+
+template <FragmentProgram P>
+DrawCounts Region::draw_once_a_pixel(const PassState& state, const PreparedDraw& list, P& program) {
+    DrawCounts drawn;
+    source_.for_each_pixel_batch(list, state, rect(), [&](PixelBatch& pixels) {
+        Outputs& out = stages_.test_pixels(state, pixels, drawn);
+        stages_.load(state, pixels.batch);
+        const auto run = [&] { program(static_cast<const FragmentBatch&>(pixels.batch), stages_.loads(), out); };
+        stages_.run_program(state, pixels.batch, out, std::ref(run));
+        stages_.write_pixels(state, pixels, out, drawn);
+    });
     end_pass(state, PassKind::geometry, drawn);
     return drawn;
 }

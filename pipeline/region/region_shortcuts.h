@@ -36,6 +36,10 @@ class RegionShortcuts {
     template <class P>
     [[nodiscard]] bool visit_batches(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band,
                                      std::size_t sample, P&& program);
+    // Calls program(batch, outputs) for the fragments of a pass once a pixel in `band`, after its test. The pass is not
+    // counted.
+    template <class P>
+    void visit_pixels(const PassState& state, const rasterizer::Rect& band, P&& program);
     // The tile's fragments of the list, with the values that `needs` names; empty if that is not recorded or not
     // sortable.
     [[nodiscard]] std::optional<SortedRecord> sorted_record(const rasterizer::FragmentNeeds& needs);
@@ -93,6 +97,16 @@ bool RegionShortcuts::visit_batches(const rasterizer::FragmentNeeds& needs, cons
     };
     rasterize_band(needs, band, sample, rasterizer::BatchSink{sink}, goes_on);
     return goes_on;
+}
+
+template <class P>
+void RegionShortcuts::visit_pixels(const PassState& state, const rasterizer::Rect& band, P&& program) {
+    const UncountedWork look{region_.shared_.statistics};
+    DrawCounts drawn;
+    region_.source_.for_each_pixel_batch(*region_.frame().transparent, state, band, [&](PixelBatch& pixels) {
+        const Outputs& out = region_.stages_.test_pixels(state, pixels, drawn);
+        program(static_cast<const FragmentBatch&>(pixels.batch), out);
+    });
 }
 
 }  // namespace strata::pipeline

@@ -5,6 +5,7 @@
 // Source   pipeline/reference/execution.md 5 and 7.
 // Tests    execution_test.cpp and selection_test.cpp of tests/peeling, tests/pipeline/region/needs_of_tiles_test.cpp
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -24,6 +25,8 @@ class Stages;
 class Targets;
 struct RegionShared;
 struct KeyIntervals;
+struct PixelBatch;
+class PixelFragments;
 
 class FragmentSource {
   public:
@@ -34,6 +37,9 @@ class FragmentSource {
 
     // All fragments of a pass, from the record if possible.
     void for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink);
+    // The fragments of a pass once a pixel in a part of the region, joined from those of all samples.
+    void for_each_pixel_batch(const PreparedDraw& list, const PassState& state, const rasterizer::Rect& part,
+                              const std::function<void(PixelBatch&)>& sink);
     [[nodiscard]] bool reads_record() const noexcept { return from_ == From::record; }
 
     // Finds the fragments that a selection keeps, if possible; next_visit returns them batch by batch, null after the
@@ -69,7 +75,10 @@ class FragmentSource {
     void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs,
                    std::span<const PrimitiveRange> primitives, rasterizer::BatchSink sink);
     void rasterize_sample(const PreparedDraw& list, std::size_t sample, const rasterizer::FragmentNeeds& needs,
-                          std::span<const PrimitiveRange> primitives, rasterizer::BatchSink sink);
+                          std::span<const PrimitiveRange> primitives, rasterizer::TileRasterizer& walk,
+                          rasterizer::BatchSink sink);
+    void join_samples(const PreparedDraw& list, const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band,
+                      const std::function<void(PixelBatch&)>& sink);
     void require_range(const FragmentBatch& batch) const;
     [[nodiscard]] bool may_record(const PreparedDraw& list) const;
     [[nodiscard]] bool record(const PreparedDraw& list, const rasterizer::FragmentNeeds& needs);
@@ -89,6 +98,7 @@ class FragmentSource {
     Targets& targets_;
     Stages& stages_;
     std::unique_ptr<rasterizer::TileRasterizer> rasterizer_;
+    std::unique_ptr<PixelFragments> joined_;                         // once a pass has needed it
     std::optional<MaterialNeeds> transparent_needs_, opaque_needs_;  // of the tile's triangles, computed on demand
     From from_ = From::rasterizer;
     std::size_t wave_ = 0;

@@ -72,6 +72,7 @@ void Stages::begin_pass(const PassState& state, PassKind kind) {
     kind_ = kind;
     tallied_ = 0;
     check_pass(shared_.profile(), state, targets_.all());
+    if (shared_.samples > 1) require_elements(state);
     if (loaded_sample() != LoadedSample::own && state.ordered_rmw && std::ranges::any_of(state.reads, &Target::exists))
         throw Refused{shared_.profile(),
                       {"loads of another sample from a target that the pass writes", "", "use --load-sample own"}};
@@ -94,6 +95,16 @@ void Stages::begin_pass(const PassState& state, PassKind kind) {
     for (std::size_t k = 0; k < state.color.size();
          ++k)  // a quad's traffic includes every pixel, whatever its program discards
         if (state.color[k].exists()) count_color_bytes(state.blend[k], targets_.at(state.color[k]), shared_.elements());
+}
+
+// A target of pixels has no sample of its own that a pass could write, and a pass once a pixel has none to load.
+void Stages::require_elements(const PassState& state) const {
+    const auto is_of_pixels = [&](Target t) { return t.exists() && targets_.at(t).pixels() != shared_.elements(); };
+    if (!state.once_a_pixel && std::ranges::any_of(state.color, is_of_pixels))
+        throw std::logic_error("pass state: a target of pixels is written by passes once a pixel");
+    const auto is_of_samples = [&](Target t) { return t.exists() && !is_of_pixels(t); };
+    if (state.once_a_pixel && loaded_sample() == LoadedSample::own && std::ranges::any_of(state.reads, is_of_samples))
+        throw std::logic_error("pass state: a pass once a pixel loads targets of pixels");
 }
 
 void Stages::count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels) {
@@ -158,6 +169,10 @@ void Stages::load(const PassState& state, const FragmentBatch& batch) {
         if (!state.reads[r].exists()) continue;
         TargetStorage& from = targets_.at(state.reads[r]);
         shared_.count(of_loads(pixel_bytes(from), static_cast<std::uint64_t>(batch.count)));
+        if (from.pixels() != shared_.elements()) {
+            load_target(from, r, elements_of(batch, 0), batch.count);
+            continue;
+        }
         switch (loaded_sample()) {
             case LoadedSample::own: load_target(from, r, batch.pixel, batch.count); break;
             case LoadedSample::zero: load_target(from, r, elements_of(batch, 0), batch.count); break;
@@ -299,7 +314,7 @@ void Stages::finish_sample(const PassState& state, const FragmentBatch& batch, c
     // Without a test, fragments that a program discards also fetch tiles (fragment-stages.md 9.5).
     if (passed == 0 && (cache_ == nullptr || is_tested)) return;
     if (kind_ == PassKind::geometry && sample == 0) shared_.count({.blended = passed});
-    write_colors(state, batch, out, sample, alive, passed);
+    write_colors(state, batch, out, sample, alive, passed, shared_.elements());
     show(Stage::written, state, batch, out, alive, sample);
     if (out.traced && shared_.frame.trace && shared_.statistics.counts && sample == 0) record_trace(batch, out, alive);
 }
@@ -333,11 +348,12 @@ void Stages::close_cache() {
 // and the general path below, its definition, runs. Stored values are fetched only if blending or a partial write mask
 // needs them.
 void Stages::write_colors(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
-                          const Lanes<std::uint32_t>& alive, std::uint64_t passed) {
+                          const Lanes<std::uint32_t>& alive, std::uint64_t passed, std::size_t elements) {
     for (std::size_t k = 0; k < state.color.size(); ++k) {
         const Blend& blending = state.blend[k];
         if (!state.color[k].exists() || blending.write_mask == 0) continue;
         TargetStorage& target = targets_.at(state.color[k]);
+        if (target.pixels() != elements) continue;
         const FormatInfo format = info(target.format());
         if (kind_ == PassKind::geometry) count_color_bytes(blending, target, passed);
         if (cache_ != nullptr && cache_->holds(k)) {

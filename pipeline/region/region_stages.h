@@ -20,6 +20,7 @@ namespace strata::pipeline {
 
 class Targets;
 class TileCache;
+struct PixelBatch;
 struct RegionShared;
 
 class Stages {
@@ -53,6 +54,9 @@ class Stages {
     // `program` runs the pass's program over the batch.
     void run_program(const PassState& state, FragmentBatch& batch, Outputs& out, const std::function<void()>& program);
     void finish(const PassState& state, const FragmentBatch& batch, Outputs& out, DrawCounts& drawn);
+    // For a pass once a pixel: tests every sample before the program; after it writes the samples that remain.
+    [[nodiscard]] Outputs& test_pixels(const PassState& state, PixelBatch& pixels, DrawCounts& drawn);
+    void write_pixels(const PassState& state, PixelBatch& pixels, Outputs& out, DrawCounts& drawn);
     void record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive);
     void show(Stage stage, const PassState& state, const FragmentBatch& batch, const Outputs& out,
               const Lanes<std::uint32_t>& alive, int sample = 0) const;
@@ -79,8 +83,10 @@ class Stages {
                      const TargetStorage& target, int sample);
     void count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels);
     void report_saturation(const FragmentBatch& batch);
+    // Writes the targets that have `elements` elements.
     void write_colors(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
-                      const Lanes<std::uint32_t>& alive, std::uint64_t passed);
+                      const Lanes<std::uint32_t>& alive, std::uint64_t passed, std::size_t elements);
+    void require_elements(const PassState& state) const;
     [[nodiscard]] static std::uint64_t alive_count(const Outputs& out, int count) noexcept;
 
     const RegionShared& shared_;

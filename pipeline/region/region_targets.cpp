@@ -106,6 +106,15 @@ Target Targets::make(Format format, int samples) {
     return {static_cast<int>(storages_.size()) - 1};
 }
 
+Target Targets::make_of_pixels(Format format) {
+    storages_.emplace_back(format, 1, shared_.pixels(), shared_.scratch.take_words());
+    return {static_cast<int>(storages_.size()) - 1};
+}
+
+std::size_t Targets::first_element(Target t, std::size_t sample) const {
+    return at(t).pixels() == shared_.elements() ? sample * shared_.pixels() : 0;
+}
+
 void Targets::clear(Target given, const ClearValue& given_value, std::uint8_t sample_mask) {
     Target target = given;
     ClearValue value = given_value;
@@ -243,7 +252,7 @@ Image Targets::resolved(Target target) const {
 void Targets::read_row(Target target, int y, std::uint32_t* out, std::size_t of_sample) const {
     const TargetStorage& from = at(target);
     const auto width = static_cast<std::size_t>(shared_.rect().width()),
-               first = of_sample * shared_.pixels() + static_cast<std::size_t>(y) * width;
+               first = first_element(target, of_sample) + static_cast<std::size_t>(y) * width;
     const auto channels = static_cast<std::size_t>(info(from.format()).channels);
     const auto samples = static_cast<std::size_t>(from.samples());
     if (samples == 1 && read_words(from.texels(0), first, width, out)) return;

@@ -26,6 +26,8 @@ class Targets {
 
     [[nodiscard]] Target make(Format format, int samples = 1);
     [[nodiscard]] Target make_depth();
+    // A target with one element for each pixel, which passes once a pixel write and all passes load.
+    [[nodiscard]] Target make_of_pixels(Format format);
     [[nodiscard]] Target opaque_depth() const noexcept { return opaque_depth_; }
     [[nodiscard]] Target opaque_color() const noexcept { return opaque_color_; }
     // True if it is 1 everywhere, as before the first opaque triangle.
@@ -47,6 +49,8 @@ class Targets {
     [[nodiscard]] std::vector<TargetStorage>& all() noexcept { return storages_; }
     [[nodiscard]] TargetStorage& at(Target t) { return storages_[static_cast<std::size_t>(t.id)]; }
     [[nodiscard]] const TargetStorage& at(Target t) const { return storages_[static_cast<std::size_t>(t.id)]; }
+    // The first element of a sample of the frame; of a target of pixels always 0.
+    [[nodiscard]] std::size_t first_element(Target t, std::size_t sample) const;
     [[nodiscard]] bool is_one_sample(Target t) const { return t.exists() && at(t).samples() == 1; }
     // Null if there is no such target.
     [[nodiscard]] const std::uint32_t* codes_of(Target t) const { return t.exists() ? at(t).depth(0) : nullptr; }

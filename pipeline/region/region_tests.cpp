@@ -1,7 +1,9 @@
 // pipeline/region/region_tests.cpp - the tests of a batch's fragments at one sample: depth units, stencil, depth
-// (pipeline/reference/fragment-stages.md 4 to 6); and stages that are off, as Effects::all simulates them.
+// (pipeline/reference/fragment-stages.md 4 to 6); the tests and writes of all samples in a pass once a pixel (13.9);
+// and stages that are off, as Effects::all simulates them.
 #include <algorithm>
 
+#include "pipeline/fragments/pixel_fragments.h"
 #include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shared.h"
@@ -14,6 +16,26 @@
 #include "pipeline/stages/stencil.h"
 
 namespace strata::pipeline {
+
+namespace {
+
+// Runs `work` while the batch has the elements and codes of sample s; `alive` are the lanes whose bit s is set.
+template <class Work>
+void at_sample(PixelBatch& pixels, std::size_t s, std::size_t area, const Lanes<std::uint8_t>& lanes,
+               Lanes<std::uint32_t>& alive, Work&& work) {
+    FragmentBatch& batch = pixels.batch;
+    const Lanes<std::uint32_t> pixel = batch.pixel, code = batch.code;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+        alive[i] = (lanes[i] >> s & 1u) != 0 ? ~0u : 0u;
+        batch.pixel[i] += static_cast<std::uint32_t>(s * area);
+        if (alive[i] != 0) batch.code[i] = pixels.sample_code[s][i];
+    }
+    work();
+    batch.pixel = pixel;
+    batch.code = code;
+}
+
+}  // namespace
 
 // The emulator's own passes cover all samples. A frame of one sample of several has the number that its state says.
 void Stages::cover_samples(const PassState& state, const FragmentBatch& batch, Outputs& out) {
@@ -127,6 +149,45 @@ void Stages::report_saturation(const FragmentBatch& batch) {
         ++pixels;
     }
     shared_.report(Fault::stencil_saturated, pixels, first, "INCR or DECR at the end of the 8-bit range");
+}
+
+// The fragments that no sample passes are dead. A program reads neither depth nor code of a sample.
+Outputs& Stages::test_pixels(const PassState& state, PixelBatch& pixels, DrawCounts& drawn) {
+    const FragmentBatch& batch = pixels.batch;
+    Outputs& out = start_batch(batch);
+    depth_ = DepthOutcome::open;
+    std::fill_n(out.samples.begin(), batch.count, std::uint8_t{0});
+    Lanes<std::uint32_t>& alive = shared_.scratch.alive;
+    for (std::size_t s = 0; s < shared_.samples; ++s)
+        at_sample(pixels, s, shared_.pixels(), pixels.covered, alive, [&] {
+            drawn.passed.own_ +=
+                state.depth.enabled ? test_depth_and_stencil(state, batch, 0, alive) : count_lanes(alive, batch.count);
+            show(Stage::tests, state, batch, out, alive);
+            for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+                out.samples[i] |= static_cast<std::uint8_t>((alive[i] & 1u) << s);
+        });
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) out.alive[i] = mask(out.samples[i] != 0);
+    return out;
+}
+
+// First the targets of pixels, then sample after sample those of samples.
+void Stages::write_pixels(const PassState& state, PixelBatch& pixels, Outputs& out, DrawCounts& drawn) {
+    drawn.tallied = Count{tallied_};
+    const FragmentBatch& batch = pixels.batch;
+    const std::uint64_t fragments = alive_count(out, batch.count);
+    if (fragments == 0) return;
+    write_colors(state, batch, out, 0, out.alive, fragments, shared_.pixels());
+    shared_.count({.blended = fragments});
+    Lanes<std::uint8_t> lanes{};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+        if (out.alive[i] != 0) lanes[i] = out.samples[i];
+    Lanes<std::uint32_t>& alive = shared_.scratch.alive;
+    for (std::size_t s = 0; s < shared_.samples; ++s)
+        at_sample(pixels, s, shared_.pixels(), lanes, alive, [&] {
+            const std::uint64_t passed = count_lanes(alive, batch.count);
+            if (passed > 0) write_colors(state, batch, out, 0, alive, passed, shared_.elements());
+            show(Stage::written, state, batch, out, alive);
+        });
 }
 
 // Effects::all also does the work of the stages that are off, with a state that changes nothing, on the pass's own

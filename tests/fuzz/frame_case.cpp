@@ -182,6 +182,7 @@ void choose_of_algorithms(ByteSource& bytes, peeling::AlgorithmOptions& o) {
     o.moments = bytes.pick(std::array{4, 6, 8});
     o.overestimation = bytes.fraction();
     o.stochastic_samples = 1 + bytes.below(peeling::most_stochastic_samples);
+    if (bytes.one_in(2)) o.list_granularity = peeling::ListGranularity::pixel;
 }
 
 // The frame of one of several samples, with values at the pixel and samples left out. Without bytes, none of it.

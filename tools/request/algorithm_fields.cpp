@@ -21,6 +21,8 @@ const std::vector<Choice<peeling::Tail>> tails{{"none", peeling::Tail::none},
 const std::vector<Choice<peeling::Overflow>> overflows{{"drop-new", peeling::Overflow::drop_new},
                                                        {"drop-far", peeling::Overflow::drop_far},
                                                        {"blend", peeling::Overflow::blend}};
+const std::vector<Choice<peeling::ListGranularity>> granularities{{"sample", peeling::ListGranularity::sample},
+                                                                  {"pixel", peeling::ListGranularity::pixel}};
 const std::vector<Choice<int>> moment_counts{{"4", 4}, {"6", 6}, {"8", 8}};
 
 auto from_one_to(int most) {
@@ -72,6 +74,10 @@ std::vector<OptionField> algorithm_fields() {
         read_by({"linked_list"},
                 word<&O::overflow>("overflow", overflows,
                                    "what linked_list does with fragments that find no node (default drop-new)")),
+        read_if([](const peeling::Algorithm& algorithm) { return algorithm.has_lists; },
+                word<&O::list_granularity>("list-granularity", granularities,
+                                           "what has a list of fragments: a sample, or a pixel, whose nodes have "
+                                           "coverage masks; with --shading pixel (default sample)")),
         read_by(
             {"moments", "moments_quantized"},
             word<&O::moments>("moments", moment_counts, "power moments of moments and moments_quantized (default 4)")),

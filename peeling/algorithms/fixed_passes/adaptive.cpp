@@ -127,7 +127,7 @@ void composite(Region& region, const CurveTargets& t, Target sums, Target result
 }
 
 void run(Region& region, const ListingInputs& inputs) {
-    CurveTargets t{make_node_depths(region, inputs.options.nodes), {}};
+    CurveTargets t{make_node_depths(region, {region, ListGranularity::sample}, inputs.options.nodes), {}};
     for (std::size_t e = 0; e < t.depths.target_count(); ++e) {
         t.through[e] = region.make(Format::rgba32f);
         region.set_name(t.through[e], "transmittances");

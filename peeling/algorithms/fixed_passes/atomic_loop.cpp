@@ -15,6 +15,7 @@
 
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/depth_range.h"
+#include "peeling/programs/fixed_passes/pixel_lists.h"
 #include "peeling/programs/fixed_passes/tail.h"
 #include "peeling/programs/programs.h"
 #include "peeling/programs/region_programs.h"
@@ -28,15 +29,15 @@ enum class EqualCodes : std::uint8_t { share, apart };
 
 // Arrays in which fragment programs collect the k nearest fragments by atomic minimum. Fragments of equal codes share
 // an entry, which keeps the colour of the last one submitted, or take an entry each, in submission order. The entries
-// of all pixels of a region: k codes and k colours per pixel. `pixel` is an index in the region.
+// of all pixels of a region: k codes, k colours and k masks per pixel. `pixel` is the index of a list.
 class AtomicEntries {
   public:
-    AtomicEntries(const pipeline::Region& region, int k, EqualCodes equal)
+    AtomicEntries(const ListElements& lists, int k, EqualCodes equal)
         : k_{static_cast<std::size_t>(k)},
           equal_{equal},
-          codes_(region.elements() * k_, empty),
+          codes_(lists.count() * k_, empty),
           colors_(codes_.size()),
-          taken_(codes_.size()) {}
+          samples_(codes_.size()) {}
 
     // The loop of atomicMin in the program of the first pass: a code replaces the first greater one, and the replaced
     // code moves on to the next entry.
@@ -49,20 +50,22 @@ class AtomicEntries {
     }
     // Stores the colour in the entry of the fragment's code. Returns false if there is none: the fragment belongs to
     // the tail (tail.h).
-    bool add_color(std::uint32_t pixel, std::uint32_t code, const pipeline::Rgba& color) {
+    bool add_color(std::uint32_t pixel, std::uint32_t code, const pipeline::Rgba& color, std::uint8_t samples) {
         for (std::size_t e = pixel * k_; e < (pixel + 1) * k_ && codes_[e] <= code; ++e) {
-            if (codes_[e] != code || (equal_ == EqualCodes::apart && taken_[e])) continue;
-            taken_[e] = true;
+            const bool is_taken = samples_[e] != 0;
+            if (codes_[e] != code || (equal_ == EqualCodes::apart && is_taken)) continue;
+            samples_[e] = samples;
             colors_[e] = color;
             return true;
         }
         return false;
     }
-    // Composites the entries from the nearest on, in binary32: C += T (a c), T *= 1 - a, where T is the transmittance.
-    // Returns (C, T).
-    [[nodiscard]] pipeline::Rgba composite(std::uint32_t pixel) const {
+    // Composites the entries that have the sample `bit` from the nearest on, in binary32: C += T (a c), T *= 1 - a,
+    // where T is the transmittance. Returns (C, T).
+    [[nodiscard]] pipeline::Rgba composite(std::uint32_t pixel, std::uint8_t bit) const {
         pipeline::Rgba all{0, 0, 0, 1};
         for (std::size_t e = pixel * k_; e < (pixel + 1) * k_ && codes_[e] != empty; ++e) {
+            if ((samples_[e] & bit) == 0) continue;
             const float a = colors_[e][3];
             for (pipeline::Rgba::length_type c = 0; c < 3; ++c) all[c] = all[c] + all[3] * (colors_[e][c] * a);
             all[3] = all[3] * (1.0f - a);
@@ -77,7 +80,7 @@ class AtomicEntries {
     EqualCodes equal_;
     std::vector<std::uint32_t> codes_;
     std::vector<pipeline::Rgba> colors_;
-    std::vector<bool> taken_;
+    std::vector<std::uint8_t> samples_;  // 0: no colour yet
 };
 
 }  // namespace
@@ -86,28 +89,37 @@ using namespace pipeline;
 
 namespace {
 
-void find_depths(Region& region, AtomicEntries& entries) {
+// What is behind the opaque surface is discarded by the program, or by the test that precedes it.
+void see_visible(Region& region, const ListElements& lists, PassState& state) {
+    if (lists.are_pixels())
+        state.once_a_pixel = true;
+    else
+        state.reads[0] = region.opaque_depth();
+}
+
+void find_depths(Region& region, const ListElements& lists, AtomicEntries& entries) {
     PassState state;
+    if (lists.are_pixels()) state = state_of_pixels(region);
     state.needs = code_only;
-    state.reads[0] = region.opaque_depth();
+    see_visible(region, lists, state);
     static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
-        keep_before(in, loads.depth(0), out);
+        if (!lists.are_pixels()) keep_before(in, loads.depth(0), out);
         for (std::size_t i = 0; i < lanes(in); ++i)
             if (out.alive[i] != 0) entries.add_code(in.pixel[i], in.code[i]);
     }));
 }
 
 // Pass 2: stores the colour of each fragment that has an entry, and adds the others to the tail.
-void find_colors(Region& region, AtomicEntries& entries, const TailTargets& tail) {
+void find_colors(Region& region, const ListElements& lists, AtomicEntries& entries, const TailTargets& tail) {
     PixelSet overflow{region};
     PassState state = tail.state();
-    state.reads[0] = region.opaque_depth();
+    see_visible(region, lists, state);
     static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
-        keep_before(in, loads.depth(0), out);
+        if (!lists.are_pixels()) keep_before(in, loads.depth(0), out);
         for (std::size_t i = 0; i < lanes(in); ++i) {
             if (out.alive[i] == 0) continue;
             const Rgba color{in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]};
-            if (entries.add_color(in.pixel[i], in.code[i], color))
+            if (entries.add_color(in.pixel[i], in.code[i], color, lists.samples_of(out, i)))
                 out.discard(static_cast<int>(i));
             else
                 overflow.add(in.pixel[i]);
@@ -117,7 +129,7 @@ void find_colors(Region& region, AtomicEntries& entries, const TailTargets& tail
     overflow.report(region, Fault::buffer_overflow, "more fragments than entries: the rest is the tail");
 }
 
-void composite(Region& region, const AtomicEntries& entries, Target behind) {
+void composite(Region& region, const ListElements& lists, const AtomicEntries& entries, Target behind) {
     const Target result = region.make(region.frame().picture_format());
     region.set_name(result, "result");
     PassState state;
@@ -125,7 +137,7 @@ void composite(Region& region, const AtomicEntries& entries, Target behind) {
     state.reads[0] = behind;
     static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
-            const Rgba all = entries.composite(in.pixel[i]);
+            const Rgba all = entries.composite(lists.list_of(in.pixel[i]), lists.bit_of(in.pixel[i]));
             for (std::size_t c = 0; c < 3; ++c)
                 out.color[0][c][i] = scalar::composited(all[static_cast<int>(c)], all[3], loads.color(0)[c][i]);
             out.color[0][3][i] = scalar::alpha_over(all[3], loads.color(0)[3][i]);
@@ -136,12 +148,13 @@ void composite(Region& region, const AtomicEntries& entries, Target behind) {
 
 template <EqualCodes equal, Tail usual>
 void run(Region& region, const ListingInputs& inputs) {
-    AtomicEntries entries{region, inputs.options.nodes, equal};
+    const ListElements lists{region, inputs.options.list_granularity};
+    AtomicEntries entries{lists, inputs.options.nodes, equal};
     TailTargets tail{region, inputs.options.tail.value_or(usual), inputs};
     region.begin_iteration();
-    find_depths(region, entries);
-    find_colors(region, entries, tail);
-    composite(region, entries, tail.resolve());
+    find_depths(region, lists, entries);
+    find_colors(region, lists, entries, tail);
+    composite(region, lists, entries, tail.resolve());
 }
 
 }  // namespace
@@ -156,6 +169,7 @@ std::vector<Algorithm> entries() {
             .summary = "the k nearest depths of a pixel by atomic minimum, then their colours; the rest blended behind",
             .pass_formula = "2",
             .ties = TiePolicy::none,
+            .has_lists = true,
             .compares_own_codes = true,
             .geometry_passes = two_passes,
             .run_with = run<EqualCodes::share, Tail::blend>,
@@ -167,6 +181,7 @@ std::vector<Algorithm> entries() {
                   .summary = "the k nearest fragments composited in order, over the average of the rest",
                   .pass_formula = "2",
                   .ties = TiePolicy::none,
+                  .has_lists = true,
                   .compares_own_codes = true,
                   .geometry_passes = two_passes,
                   .run_with = run<EqualCodes::apart, Tail::average>,

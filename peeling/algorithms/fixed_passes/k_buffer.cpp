@@ -12,6 +12,7 @@
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/depth_float.h"
 #include "peeling/programs/depth_range.h"
+#include "peeling/programs/fixed_passes/pixel_lists.h"
 #include "peeling/programs/region_programs.h"
 
 namespace strata::peeling::listing::k_buffer {
@@ -26,19 +27,24 @@ constexpr float no_entry = 2.0f;  // beyond every depth
 struct Entry {
     float depth = no_entry;
     Rgba color{};  // not premultiplied
+    std::uint8_t samples = 1;
 };
 
 class KBuffer {
   public:
-    explicit KBuffer(Region& region) : region_{region}, overflow_{region}, pushed_out_(region.elements(), -1.0f) {
+    KBuffer(Region& region, ListGranularity granularity)
+        : region_{region}, lists_{region, granularity}, overflow_{region}, pushed_out_(lists_.count(), -1.0f) {
         region_.set_name(accumulated_, "accumulated");
         region_.set_name(depths_, "depths");
         region_.clear(accumulated_, {.color = {0, 0, 0, 1}});
         region_.clear(depths_, {.color = {no_entry, no_entry, no_entry, no_entry}});
         for (Target& color : colors_) {
-            color = region_.make(Format::rgba32f);
+            color = lists_.make(Format::rgba32f);
             region_.set_name(color, "entry");
         }
+        if (!lists_.are_pixels()) return;
+        masks_ = lists_.make(Format::rgba32f);
+        region_.set_name(masks_, "masks");
     }
 
     void run() {
@@ -58,11 +64,22 @@ class KBuffer {
         state.color[1] = depths_;
         for (std::size_t i = 0; i < k; ++i) state.color[2 + i] = state.reads[2 + i] = colors_[i];
         state.ordered_rmw = true;
+        if (lists_.are_pixels()) see_pixels(state);
         static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& loads, Outputs& out) {
-            keep_before(in, loads.depth(0), out);
+            if (!lists_.are_pixels()) keep_before(in, loads.depth(0), out);
             for (std::size_t i = 0; i < lanes(in); ++i)
                 if (out.alive[i] != 0) insert(in, loads, out, i);
         }));
+    }
+
+    // In a pass once a pixel the test precedes the program, and entries have masks.
+    void see_pixels(PassState& state) const {
+        const PassState tested = state_of_pixels(region_);
+        state.depth = tested.depth;
+        state.depth_target = tested.depth_target;
+        state.once_a_pixel = true;
+        state.reads[0] = {};
+        state.color[2 + k] = state.reads[2 + k] = masks_;
     }
 
     // Inserts the fragment behind all entries of less or equal depth, and composites the nearest entry if there are now
@@ -72,9 +89,11 @@ class KBuffer {
         for (std::size_t e = 0; e < k; ++e) {
             entries[e].depth = loads.color(1)[e][i];
             for (std::size_t c = 0; c < 4; ++c) entries[e].color[c] = loads.color(2 + static_cast<int>(e))[c][i];
+            if (lists_.are_pixels()) entries[e].samples = static_cast<std::uint8_t>(loads.color(2 + k)[e][i]);
         }
         Entry fragment{depth_as_float(in.code[i], format_),
-                       {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]}};
+                       {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]},
+                       lists_.samples_of(out, i)};
         if (fragment.depth < pushed_out_[in.pixel[i]]) overflow_.add(in.pixel[i]);
         std::size_t slot = k;
         for (; slot > 0 && entries[slot - 1].depth > fragment.depth; --slot) entries[slot] = entries[slot - 1];
@@ -85,6 +104,7 @@ class KBuffer {
         for (std::size_t e = 0; e < k; ++e) {
             out.color[1][e][i] = entries[first + e].depth;
             for (std::size_t c = 0; c < 4; ++c) out.color[2 + e][c][i] = entries[first + e].color[c];
+            if (lists_.are_pixels()) out.color[2 + k][e][i] = static_cast<float>(entries[first + e].samples);
         }
     }
 
@@ -93,6 +113,7 @@ class KBuffer {
     void push_out(std::uint32_t pixel, const Entry& entry, Outputs& out, std::size_t i) {
         for (std::size_t c = 0; c < 3; ++c) out.color[0][c][i] = entry.color[c] * entry.color[3];
         out.color[0][3][i] = entry.color[3];
+        if (lists_.are_pixels()) out.samples[i] = entry.samples;
         if (entry.depth == no_entry) return;
         pushed_out_[pixel] = std::max(pushed_out_[pixel], entry.depth);
         if (region_.frame().trace) region_.trace({pixel, depth_as_code(entry.depth, format_), 0, Side::front, false});
@@ -101,31 +122,37 @@ class KBuffer {
     // One full-screen quad per entry, near to far; pixels whose entry is empty are discarded.
     void composite_entry(std::size_t e) {
         PassState state = composite_state(accumulated_);
-        state.reads = {depths_, colors_[e]};
+        state.reads = {depths_, colors_[e], masks_};
         static_cast<void>(
             region_.full_screen(state, [this, e](const FragmentBatch& in, const Loads& loads, Outputs& out) {
                 premultiply(loads.color(1), out.color[0], lanes(in));
                 out.traced = true;
                 for (std::size_t i = 0; i < lanes(in); ++i) {
                     const float depth = loads.color(0)[e][i];
-                    out.alive[i] &= mask(depth != no_entry);
+                    out.alive[i] &= mask(depth != no_entry && is_at(loads, e, i, in.pixel[i]));
                     out.side[i] = Side::front;
                     out.key[i] = depth_as_code(depth, format_);
                 }
             }));
     }
 
+    // True if entry e has the sample of this element.
+    [[nodiscard]] bool is_at(const Loads& loads, std::size_t e, std::size_t i, std::uint32_t element) const noexcept {
+        return !lists_.are_pixels() || (static_cast<std::uint8_t>(loads.color(2)[e][i]) & lists_.bit_of(element)) != 0;
+    }
+
     Region& region_;
+    ListElements lists_;
     PixelSet overflow_;
-    std::vector<float> pushed_out_;  // per pixel, the greatest depth composited before the end of the pass
+    std::vector<float> pushed_out_;  // per list, the greatest depth composited before the end of the pass
     DepthFormat format_ = region_.frame().key_request().format;
-    Target accumulated_ = region_.make_color(), depths_ = region_.make(Format::rgba32f);
+    Target accumulated_ = region_.make_color(), depths_ = lists_.make(Format::rgba32f), masks_{};
     std::array<Target, k> colors_;
 };
 
 }  // namespace
 
-void run(Region& region) { KBuffer{region}.run(); }
+void run(Region& region, const ListingInputs& inputs) { KBuffer{region, inputs.options.list_granularity}.run(); }
 
 std::vector<Algorithm> entries() {
     return {
@@ -136,9 +163,10 @@ std::vector<Algorithm> entries() {
                   .summary = "the four nearest fragments so far, sorted as they come; the fifth pushes the nearest out",
                   .pass_formula = "1",
                   .ties = TiePolicy::first,
+                  .has_lists = true,
                   .compares_own_codes = true,
                   .geometry_passes = one_pass,
-                  .run = run,
+                  .run_with = run,
                   .features = {ordered_rmw, float_targets, fragment_programs, separate_alpha_blend},
                   .render_targets = 6}};
 }

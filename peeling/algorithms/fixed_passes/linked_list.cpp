@@ -12,6 +12,7 @@
 
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/depth_range.h"
+#include "peeling/programs/fixed_passes/pixel_lists.h"
 #include "peeling/programs/fragment_lists.h"
 #include "peeling/programs/tie_order.h"
 #include "peeling/programs/under.h"
@@ -25,12 +26,19 @@ namespace {
 struct NodeLists {
     Region& region;
     const AlgorithmOptions& options;
-    std::vector<std::uint32_t> coverage;
-    std::vector<Rgba> composited;                 // of every pixel with fragments
+    ListElements elements;
+    std::vector<std::uint32_t> coverage;          // of every list
+    std::vector<Rgba> composited;                 // of every element whose list has fragments
     std::uint64_t last_node = ~std::uint64_t{0};  // the key of the last fragment that gets one of the frame's nodes
 
     [[nodiscard]] PixelRange range_from(std::uint32_t first) const {
         return next_range(coverage, region.rect().width(), first, region.frame().list_bytes / sizeof(KeyedFragment));
+    }
+    void fill(const PixelRange& range, Counting counting, FragmentLists& found) const {
+        if (elements.are_pixels())
+            list_pixels(region, range, coverage, counting, found);
+        else
+            list_visible(region, range, coverage, counting, found);
     }
     // The number of `count` fragments for which the pixel's own limit leaves nodes.
     [[nodiscard]] std::size_t most(std::size_t count) const {
@@ -51,7 +59,7 @@ void give_out_nodes(NodeLists& lists) {
     std::vector<std::uint64_t> keys;
     FragmentLists found;
     for (std::uint32_t first = 0; first < lists.coverage.size(); first = found.pixels.last) {
-        list_visible(lists.region, lists.range_from(first), lists.coverage, Counting::silent, found);
+        lists.fill(lists.range_from(first), Counting::silent, found);
         for (std::uint32_t pixel = first; pixel < found.pixels.last; ++pixel) {
             const auto fragments = found.of(pixel);
             for (std::size_t i = 0; i < lists.most(fragments.size()); ++i)
@@ -72,10 +80,12 @@ void blend_over(Rgba& below, const Rgba& source) noexcept {
     below[3] = scalar::alpha_over(1.0f - a, below[3]);
 }
 
-// Composites one pixel: the fragments that have nodes, sorted by depth, or the nearest of all fragments
-// (Overflow::drop_far). With Overflow::blend the fragments without a node are first blended onto the background.
-void composite_pixel(NodeLists& lists, std::uint32_t pixel, std::span<const KeyedFragment> fragments,
-                     PixelSet& overflow, FragmentOrder& order) {
+// Composites one list: the fragments that have nodes, sorted by depth, or the nearest of all fragments
+// (Overflow::drop_far). With Overflow::blend the fragments without a node are first blended onto the background. A list
+// of a pixel is composited at each sample from the nodes that have it.
+void composite_list(NodeLists& lists, std::uint32_t pixel, const FragmentLists& found, PixelSet& overflow,
+                    FragmentOrder& order) {
+    const std::span<const KeyedFragment> fragments = found.of(pixel);
     std::size_t nodes = lists.most(fragments.size());
     while (nodes > 0 && node_key(fragments[nodes - 1], pixel) > lists.last_node) --nodes;
     const Overflow rule = lists.options.overflow;
@@ -84,11 +94,19 @@ void composite_pixel(NodeLists& lists, std::uint32_t pixel, std::span<const Keye
     const bool keeps_near = is_full && rule == Overflow::drop_far;
     sort_by(&KeyedFragment::key, keeps_near ? fragments : fragments.first(nodes), order);
     if (keeps_near) order.resize(nodes);
-    Rgba color = lists.region.targets().color(lists.region.opaque_color(), pixel);
-    if (rule == Overflow::blend)
-        for (const KeyedFragment& f : fragments.subspan(nodes)) blend_over(color, f.color);
-    for (std::size_t i = order.size(); i-- > 0;) blend_over(color, fragments[submission_index(order[i])].color);
-    lists.composited[pixel] = color;
+    const std::size_t first = found.start[pixel - found.pixels.first];
+    for (std::uint32_t element = pixel; element < lists.composited.size();
+         element += static_cast<std::uint32_t>(lists.coverage.size())) {
+        Rgba color = lists.region.targets().color(lists.region.opaque_color(), element);
+        const auto blend = [&](std::size_t i) {
+            if (!lists.elements.are_pixels() || (found.samples[first + i] & lists.elements.bit_of(element)) != 0)
+                blend_over(color, fragments[i].color);
+        };
+        if (rule == Overflow::blend)
+            for (std::size_t i = nodes; i < fragments.size(); ++i) blend(i);
+        for (std::size_t i = order.size(); i-- > 0;) blend(submission_index(order[i]));
+        lists.composited[element] = color;
+    }
     if (!lists.region.frame().trace) return;
     for (const std::uint64_t entry : order) {
         const KeyedFragment& f = fragments[submission_index(entry)];
@@ -105,7 +123,7 @@ void store(Region& region, const NodeLists& lists) {
     state.reads[0] = region.opaque_color();
     static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
-            const bool has_list = lists.coverage[in.pixel[i]] > 0;
+            const bool has_list = lists.coverage[lists.elements.list_of(in.pixel[i])] > 0;
             for (std::size_t c = 0; c < 4; ++c)
                 out.color[0][c][i] =
                     has_list ? lists.composited[in.pixel[i]][static_cast<int>(c)] : loads.color(0)[c][i];
@@ -116,18 +134,20 @@ void store(Region& region, const NodeLists& lists) {
 
 void run(Region& region, const ListingInputs& inputs) {
     region.begin_iteration();
-    NodeLists lists{region, inputs.options, coverage_of(region), std::vector<Rgba>(region.elements())};
+    const ListElements elements{region, inputs.options.list_granularity};
+    NodeLists lists{region, inputs.options, elements,
+                    elements.are_pixels() ? coverage_of_pixels(region) : coverage_of(region),
+                    std::vector<Rgba>(region.elements())};
     give_out_nodes(lists);
     const bool is_one_range = lists.range_from(0).size() == lists.coverage.size();
-    if (!is_one_range) count_list_pass(region);
+    if (!is_one_range) count_list_pass(region, elements.are_pixels());
     PixelSet overflow{region};
     FragmentLists found;
     FragmentOrder order;
     for (std::uint32_t first = 0; first < lists.coverage.size(); first = found.pixels.last) {
-        list_visible(region, lists.range_from(first), lists.coverage,
-                     is_one_range ? Counting::counted : Counting::silent, found);
+        lists.fill(lists.range_from(first), is_one_range ? Counting::counted : Counting::silent, found);
         for (std::uint32_t pixel = first; pixel < found.pixels.last; ++pixel)
-            if (lists.coverage[pixel] > 0) composite_pixel(lists, pixel, found.of(pixel), overflow, order);
+            if (lists.coverage[pixel] > 0) composite_list(lists, pixel, found, overflow, order);
     }
     overflow.report(region, Fault::buffer_overflow, "more fragments than nodes");
     store(region, lists);
@@ -145,6 +165,7 @@ std::vector<Algorithm> entries() {
         .pass_formula = "1",
         .ties = TiePolicy::first,
         .exact = true,
+        .has_lists = true,
         .shares_nodes = true,
         .compares_own_codes = true,
         .geometry_passes = one_pass,

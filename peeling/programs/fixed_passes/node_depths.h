@@ -10,6 +10,7 @@
 
 #include "peeling/programs/depth_float.h"
 #include "peeling/programs/depth_range.h"
+#include "peeling/programs/fixed_passes/pixel_lists.h"
 #include "pipeline/region/region.h"
 
 namespace strata::peeling {
@@ -20,10 +21,10 @@ struct NodeDepths {
     [[nodiscard]] std::size_t target_count() const noexcept { return static_cast<std::size_t>(nodes + 3) / 4; }
 };
 
-[[nodiscard]] inline NodeDepths make_node_depths(pipeline::Region& region, int nodes) {
+[[nodiscard]] inline NodeDepths make_node_depths(pipeline::Region& region, const ListElements& lists, int nodes) {
     NodeDepths depths{nodes, {}};
     for (std::size_t t = 0; t < depths.target_count(); ++t) {
-        depths.targets[t] = region.make(pipeline::Format::rgba32f);
+        depths.targets[t] = lists.make(pipeline::Format::rgba32f);
         region.set_name(depths.targets[t], "depths");
         region.clear(depths.targets[t], {.color = pipeline::Rgba(no_node)});
     }

@@ -4,7 +4,7 @@
     tools/lab/multisampling/page.py build/release
 
 The counts are those of `strata multisampling`; the pictures are a part of the teapot's outline, enlarged: two algorithms by way of sampling, and every
-exact algorithm at 1, 4 and 8 samples. Needs no package.
+exact algorithm at 1, 4 and 8 samples, and lists of 4 nodes. Needs no package.
 """
 import json
 import os
@@ -29,14 +29,22 @@ WAYS = [
 ]
 
 
+# Lists of 4 nodes: the words of each way, by where a list is.
+LISTS = ["--algorithm", "linked_list", "--pixel-nodes", "4"]
+OF_PIXELS = ["--shading", "pixel", "--interpolate", "centroid", "--list-granularity", "pixel"]
+LIST_WAYS = [("1 sample", []), ("4 samples, lists of pixels", ["--samples", "4", *OF_PIXELS]), ("8 samples, lists of pixels", ["--samples", "8", *OF_PIXELS]),
+             ("4 samples, lists of samples", ["--samples", "4"]), ("8 samples, lists of samples", ["--samples", "8"])]
+LIST_SCENES = ["planes:count=4,cells=2", "teapot", "random:triangles=200"]
+
+
 def part_of(path):
     _, rows = rows_of_png(path)
     return [row[3 * LEFT:3 * (LEFT + WIDTH)] for row in rows[TOP:TOP + HEIGHT]]
 
 
-def enlarged(part):
+def enlarged(part, scale=SCALE):
     """Every pixel a square."""
-    return [b"".join(row[i:i + 3] * SCALE for i in range(0, len(row), 3)) for row in part for _ in range(SCALE)]
+    return [b"".join(row[i:i + 3] * scale for i in range(0, len(row), 3)) for row in part for _ in range(scale)]
 
 
 def picture(program):
@@ -88,6 +96,26 @@ def silhouettes(program):
     return png_of(len(lines[0]) // 3, lines), text
 
 
+def wireframe(program):
+    """The picture of lists of 4 nodes, of which the first four ways are shown, and the table of the lists that overflow."""
+    white, parts, text = b"\xff\xff\xff", [], "| scene | " + " | ".join(label for label, _ in LIST_WAYS) + " |\n|" + "---|" * (1 + len(LIST_WAYS)) + "\n"
+    with tempfile.TemporaryDirectory() as folder:
+        path, stats = os.path.join(folder, "x.png"), os.path.join(folder, "x.json")
+        for scene in LIST_SCENES:
+            cells = []
+            for _, words in LIST_WAYS:
+                subprocess.run([program, "render", scene, *(word.replace("64x48", "128x96") for word in VIEW[1:]), *words, *LISTS, "-o", path, "--stats", stats], check=True, stdout=subprocess.DEVNULL)
+                with open(stats, encoding="utf-8") as file:
+                    found = [entry["pixels"] for entry in json.load(file)[0]["diagnostics"] if entry["fault"] == "buffer_overflow"]
+                cells.append(str(sum(found)))
+                if scene == LIST_SCENES[0] and len(parts) < 4:
+                    _, rows = rows_of_png(path)
+                    parts.append(enlarged([row[3 * 32:3 * 92] for row in rows[12:84]], 3))
+            text += f"| {scene} | " + " | ".join(cells) + " |\n"
+    strips = [(white * GAP).join(strip) for strip in zip(*parts)]
+    return png_of(len(strips[0]) // 3, strips), text
+
+
 def table(program):
     """A row for each algorithm and way: lost, doubled and misplaced layers of each scene, and where the samples are in all scenes."""
     counted = json.loads(subprocess.run([program, "multisampling", "--json"], check=True, capture_output=True, text=True).stdout)
@@ -111,13 +139,16 @@ def main():
     with open(page, encoding="utf-8") as file:
         text = file.read()
     outlines, outlines_text = silhouettes(program)
-    for mark, part in (("counts", table(program)), ("silhouettes", outlines_text)):
+    lists, lists_text = wireframe(program)
+    for mark, part in (("counts", table(program)), ("silhouettes", outlines_text), ("lists", lists_text)):
         before, rest = text.split(f"<!-- {mark} -->\n")[::2]
         text = f"{before}<!-- {mark} -->\n{part}<!-- {mark} -->\n{rest}"
     with open(page, "w", encoding="utf-8") as file:
         file.write(text)
     with open(os.path.join(FOLDER, "silhouettes.png"), "wb") as file:
         file.write(outlines)
+    with open(os.path.join(FOLDER, "wireframe.png"), "wb") as file:
+        file.write(lists)
     with open(os.path.join(FOLDER, "multisampling.png"), "wb") as file:
         file.write(picture(program))
 

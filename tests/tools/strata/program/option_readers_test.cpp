@@ -31,6 +31,7 @@ const std::vector<Change> changes{
     {"--tail", [](RenderOptions& o) { o.algorithm.tail = peeling::Tail::weighted; }},
     {"--pixel-nodes", [](RenderOptions& o) { o.algorithm.pixel_nodes = 1; }},
     {"--frame-nodes", [](RenderOptions& o) { o.algorithm.frame_nodes = 5; }},
+    {"--list-granularity", [](RenderOptions& o) { o.algorithm.list_granularity = peeling::ListGranularity::pixel; }},
     {"--moments", [](RenderOptions& o) { o.algorithm.moments = 8; }},
     {"--moment-bias", [](RenderOptions& o) { o.algorithm.moment_bias = 0.5f; }},
     {"--overestimation", [](RenderOptions& o) { o.algorithm.overestimation = 0.9f; }},
@@ -59,6 +60,10 @@ TEST_CASE("exactly the algorithms that are said to read an option draw another p
             options.width = options.height = 32;
             options.audit = false;
             options.max_passes = change.option == "--tail" ? 2 : 0;  // the tail of a peel that ends early
+            if (change.option == "--list-granularity") {
+                options.sampling.samples = 4;
+                options.raster.interpolation = rasterizer::Interpolation::centre;
+            }
             const auto plain = codes(options, algorithm);
             change.make(options);
             const bool is_changed = codes(options, algorithm) != plain;
