@@ -108,6 +108,7 @@ DeviceProfile mesa() {
     p.resolve = ResolveRule::single;
     p.alpha_to_coverage = ShareRounding::up;
     p.sample_coverage = ShareRounding::down;
+    p.centroid = CentroidSamples::passing;
     return p;
 }
 

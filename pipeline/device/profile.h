@@ -43,6 +43,9 @@ enum class Origin : std::uint8_t { upper_left, lower_left };
 // The sample positions within a pixel: as in Direct3D; or as NV20's modes are named, a corner and the centre, or a
 // square (fragment-stages.md 13.1).
 enum class SamplePositions : std::uint8_t { standard, nv20 };
+// The samples whose first one is the centroid of a pixel that a triangle covers in part: those that it covers, or those
+// of them that pass the depth test (fragment-stages.md 13.7).
+enum class CentroidSamples : std::uint8_t { covered, passing };
 // How a share of n samples becomes a number of samples (fragment-stages.md 13.6).
 enum class ShareRounding : std::uint8_t { nearest, up, down };
 
@@ -108,6 +111,7 @@ struct DeviceProfile {
     ResolveRule resolve = ResolveRule::codes_half_up;
     ShareRounding alpha_to_coverage = ShareRounding::nearest;
     ShareRounding sample_coverage = ShareRounding::nearest;
+    CentroidSamples centroid = CentroidSamples::covered;
     // Limits (devices.md 7): colour targets per pass, texture units, the viewport's larger side in pixels, samples per
     // pixel, and the smallest supported number of samples above 1.
     int max_render_targets = 1;

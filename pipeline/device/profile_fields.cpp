@@ -334,6 +334,8 @@ constexpr std::array fields{
     choice<&Profile::sample_coverage>("sample_coverage",
                                       {"[A] fragment-stages.md 13.6", "[A] fragment-stages.md 13.6", ours,
                                        "[S] fragment-stages.md 13.6: Mesa", "[A] fragment-stages.md 13.6"}),
+    choice<&Profile::centroid>("centroid", {"[A] fragment-stages.md 13.7", "[A] fragment-stages.md 13.7", ours,
+                                            "[M] fragment-stages.md 13.7", "[A] fragment-stages.md 13.7"}),
     integer<&Profile::max_render_targets>("max_render_targets", {1, 8},
                                           {"[S] devices.md 7: one colour buffer", "[S] devices.md 7: D3D 11.3 17.14",
                                            ours, "[M] Mesa 22.3: GL_MAX_DRAW_BUFFERS", webgl}),

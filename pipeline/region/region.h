@@ -117,6 +117,8 @@ class Region {
     template <FragmentProgram P>
     DrawCounts draw_once_a_pixel(const PassState& state, const PreparedDraw& list, P& program);
     template <FragmentProgram P>
+    DrawCounts draw_together(const PassState& state, const PreparedDraw& list, P& program);
+    template <FragmentProgram P>
     DrawCounts draw_visits(const PassState& state, P& program);
     template <class P>
     void run_batch(const PassState& state, P& program, FragmentBatch& batch, Outputs& out, DrawCounts& drawn);
@@ -141,6 +143,7 @@ DrawCounts Region::draw(const PassState& given, const PreparedDraw& list, P&& pr
     const PassState state = altered(given, PassKind::geometry);
     stages_.begin_pass(state, PassKind::geometry);
     if (state.once_a_pixel) return draw_once_a_pixel(state, list, program);
+    if (stages_.moves_centroids(state, list)) return draw_together(state, list, program);
     if (state.selection.keeps == KeptFragments::everything || !source_.find_fragments(state, list))
         return draw_everything(state, list, program);
     return shared_.instruments.check_selections ? checked([&] { return draw_visits(state, program); },
@@ -166,13 +169,27 @@ DrawCounts Region::draw_everything(const PassState& state, const PreparedDraw& l
 template <FragmentProgram P>
 DrawCounts Region::draw_once_a_pixel(const PassState& state, const PreparedDraw& list, P& program) {
     DrawCounts drawn;
-    source_.for_each_pixel_batch(list, state, rect(), [&](PixelBatch& pixels) {
+    source_.for_each_pixel_batch(list, state, rect(), FragmentSource::Colors::once, [&](PixelBatch& pixels) {
         Outputs& out = stages_.test_pixels(state, pixels, drawn);
         stages_.load(state, pixels.batch);
         const auto run = [&] { program(static_cast<const FragmentBatch&>(pixels.batch), stages_.loads(), out); };
         stages_.run_program(state, pixels.batch, out, std::ref(run));
         stages_.write_pixels(state, pixels, out, drawn);
     });
+    end_pass(state, PassKind::geometry, drawn);
+    return drawn;
+}
+
+// All samples of a triangle before the next one, because colours depend on the tests of all of them.
+template <FragmentProgram P>
+DrawCounts Region::draw_together(const PassState& state, const PreparedDraw& list, P& program) {
+    DrawCounts drawn;
+    const auto run_sample = [&](FragmentBatch& batch, Outputs& out) {
+        stages_.show(Stage::shaded, state, batch, out, out.alive);
+        run_batch(state, program, batch, out, drawn);
+    };
+    source_.for_each_pixel_batch(list, state, rect(), FragmentSource::Colors::at_centre_and_samples,
+                                 [&](PixelBatch& pixels) { stages_.for_each_sample(state, pixels, run_sample); });
     end_pass(state, PassKind::geometry, drawn);
     return drawn;
 }

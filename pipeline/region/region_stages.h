@@ -57,6 +57,11 @@ class Stages {
     // For a pass once a pixel: tests every sample before the program; after it writes the samples that remain.
     [[nodiscard]] Outputs& test_pixels(const PassState& state, PixelBatch& pixels, DrawCounts& drawn);
     void write_pixels(const PassState& state, PixelBatch& pixels, Outputs& out, DrawCounts& drawn);
+    // True if the pass's values are evaluated at the centroid of the samples that pass its depth test (13.7).
+    [[nodiscard]] bool moves_centroids(const PassState& state, const PreparedDraw& list) const;
+    // Calls `work` with the batch of each sample, and the outputs with its covered lanes alive.
+    void for_each_sample(const PassState& state, PixelBatch& pixels,
+                         const std::function<void(FragmentBatch&, Outputs&)>& work);
     void record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive);
     void show(Stage stage, const PassState& state, const FragmentBatch& batch, const Outputs& out,
               const Lanes<std::uint32_t>& alive, int sample = 0) const;

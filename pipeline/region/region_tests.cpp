@@ -2,6 +2,7 @@
 // (pipeline/reference/fragment-stages.md 4 to 6); the tests and writes of all samples in a pass once a pixel (13.9);
 // and stages that are off, as Effects::all simulates them.
 #include <algorithm>
+#include <bit>
 
 #include "pipeline/fragments/pixel_fragments.h"
 #include "pipeline/frame/pass_counters.h"
@@ -168,6 +169,40 @@ Outputs& Stages::test_pixels(const PassState& state, PixelBatch& pixels, DrawCou
         });
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) out.alive[i] = mask(out.samples[i] != 0);
     return out;
+}
+
+bool Stages::moves_centroids(const PassState& state, const PreparedDraw& list) const {
+    return shared_.profile().centroid == CentroidSamples::passing && shared_.samples > 1 &&
+           list.geometry.state.interpolation == rasterizer::Interpolation::centroid && state.depth.enabled &&
+           !state.stencil.enabled && !state.replaces_depth && state.primitives.empty() && !state.needs.texcoord &&
+           !state.needs.facing && !state.needs.exact_code && state.needs.units == 0;
+}
+
+// The depth test of every sample comes first, without a write; nothing is counted, for each sample's own stages test
+// again. Where a sample of the pixel fails, colours are those at the first sample that passes.
+void Stages::for_each_sample(const PassState& state, PixelBatch& pixels,
+                             const std::function<void(FragmentBatch&, Outputs&)>& work) {
+    PassState early;
+    early.depth = {.enabled = true, .func = state.depth.func, .write = false};
+    early.depth_target = state.depth_target;
+    {
+        const UncountedWork look{shared_.statistics};
+        DrawCounts none;
+        const Outputs& passing = test_pixels(early, pixels, none);
+        const unsigned all = (1u << shared_.samples) - 1;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(pixels.batch.count); ++i) {
+            if (passing.samples[i] == 0 || passing.samples[i] == all) continue;
+            const auto first = static_cast<std::size_t>(std::countr_zero(passing.samples[i]));
+            for (std::size_t c = 0; c < 4; ++c) pixels.batch.color[c][i] = pixels.sample_color[first][c][i];
+        }
+    }
+    Lanes<std::uint32_t> alive;
+    for (std::size_t s = 0; s < shared_.samples; ++s)
+        at_sample(pixels, s, shared_.pixels(), pixels.covered, alive, [&] {
+            Outputs& out = start_batch(pixels.batch);
+            std::copy_n(alive.begin(), pixels.batch.count, out.alive.begin());
+            work(pixels.batch, out);
+        });
 }
 
 // First the targets of pixels, then sample after sample those of samples.

@@ -47,13 +47,14 @@ struct PixelShading::Few {  // the fragments of one point
 
 PixelShading::~PixelShading() = default;
 
-PixelShading::PixelShading(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs)
-    : geometry_{geometry}, needs_{needs} {
+PixelShading::PixelShading(Interpolation at, const Geometry& geometry, const DepthRequest& depth,
+                           const FragmentNeeds& needs)
+    : geometry_{geometry}, at_{at}, needs_{needs} {
     assert(geometry.state.sample && depth.path != DepthPath::depth_replace);
     FragmentNeeds at_point = needs;  // the codes are the sample's
     at_point.code = at_point.exact_code = false;
     points_.push_back(point_at({}, depth, at_point));
-    if (geometry.state.interpolation == Interpolation::centre) return;
+    if (at == Interpolation::centre) return;
     at_point.shader_z = at_point.reference = false;
     for (std::size_t s = 0; s < static_cast<std::size_t>(geometry.state.sample_count); ++s)
         points_.push_back(point_at(geometry.state.samples[s], depth, at_point));
@@ -117,7 +118,7 @@ void PixelShading::take(std::uint32_t index, Point& point) const {
 int PixelShading::fill(std::uint32_t index, int first, FragmentBatch& batch, WeightLanes& weights) {
     // The depth is that of the centre everywhere.
     const int fallbacks = fill_at(points_[0], index, first, batch, weights);
-    if (geometry_.state.interpolation == Interpolation::centre) return fallbacks;
+    if (at_ == Interpolation::centre) return fallbacks;
     return fallbacks + fill_at_centroids(index, first, batch);
 }
 

@@ -19,13 +19,13 @@ namespace strata::rasterizer {
 
 class PixelShading {
   public:
-    // The geometry's state has a sample and an interpolation other than `sample`; the path does not replace depth.
-    PixelShading(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs);
+    // The geometry's state has a sample, and `at` is not `sample`; the path does not replace depth.
+    PixelShading(Interpolation at, const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs);
     ~PixelShading();
 
-    // True if the geometry evaluates values that are needed apart from its samples.
-    [[nodiscard]] static bool is_used(const Geometry& geometry, const FragmentNeeds& needs) noexcept {
-        return geometry.state.interpolation != Interpolation::sample &&
+    // True if values that are needed are evaluated apart from the sample.
+    [[nodiscard]] static bool is_used(Interpolation at, const FragmentNeeds& needs) noexcept {
+        return at != Interpolation::sample &&
                (needs.shader_z || needs.color || needs.texcoord || needs.reference || needs.units != 0);
     }
 
@@ -50,6 +50,7 @@ class PixelShading {
     void copy_attributes(const FragmentBatch& from, std::size_t i, FragmentBatch& to, std::size_t k) const noexcept;
 
     const Geometry& geometry_;
+    Interpolation at_;
     FragmentNeeds needs_;
     std::vector<Point> points_;           // the centre, then for the centroid the samples
     std::optional<TriangleEdges> edges_;  // of the current triangle at its own sample

@@ -15,18 +15,18 @@ namespace strata::rasterizer {
 // One call of draw: its constants, and the batch being filled.
 class TileRasterizer::Pass {
   public:
-    Pass(TileRasterizer& owner, const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs,
-         const BatchSink& sink)
+    Pass(TileRasterizer& owner, Interpolation at, const Geometry& geometry, const DepthRequest& depth,
+         const FragmentNeeds& needs, const BatchSink& sink)
         : owner_{owner},
           batch_{owner.batch_},
           geometry_{geometry},
           sink_{sink},
           kernels_{lane_kernels()},
           small_{small_kernels()},
-          values_{geometry, depth, PixelShading::is_used(geometry, needs) ? PixelShading::of_sample(needs) : needs},
+          values_{geometry, depth, PixelShading::is_used(at, needs) ? PixelShading::of_sample(needs) : needs},
           has_colors_{needs.color},
           rules_{group_rules(geometry, owner.region_)} {
-        if (PixelShading::is_used(geometry, needs)) shading_ = std::make_unique<PixelShading>(geometry, depth, needs);
+        if (PixelShading::is_used(at, needs)) shading_ = std::make_unique<PixelShading>(at, geometry, depth, needs);
     }
 
     void draw(std::span<const std::uint32_t> triangles) {
@@ -169,9 +169,9 @@ class TileRasterizer::Pass {
 
 TileRasterizer::TileRasterizer(Rect region) : region_{region}, claims_{region} {}
 
-void TileRasterizer::draw(const Geometry& geometry, std::span<const std::uint32_t> triangles, const DepthRequest& depth,
-                          const FragmentNeeds& needs, BatchSink sink) {
-    Pass pass{*this, geometry, depth, needs, sink};
+void TileRasterizer::draw_at(Interpolation at, const Geometry& geometry, std::span<const std::uint32_t> triangles,
+                             const DepthRequest& depth, const FragmentNeeds& needs, BatchSink sink) {
+    Pass pass{*this, at, geometry, depth, needs, sink};
     pass.draw(triangles);
 }
 

@@ -22,9 +22,15 @@ class TileRasterizer {
     explicit TileRasterizer(Rect region);
 
     // Rasterizes `triangles` (indices into geometry.triangles, ascending) and calls `sink` with every nonempty batch.
-    // Scissor and, with ZClip::per_fragment, the depth range are already applied.
+    // Scissor and, with ZClip::per_fragment, the depth range are already applied. Values are evaluated as the
+    // geometry's state says.
     void draw(const Geometry& geometry, std::span<const std::uint32_t> triangles, const DepthRequest& depth,
-              const FragmentNeeds& needs, BatchSink sink);
+              const FragmentNeeds& needs, BatchSink sink) {
+        draw_at(geometry.state.interpolation, geometry, triangles, depth, needs, sink);
+    }
+    // The same, but values are evaluated elsewhere; only at the sample if the state has none.
+    void draw_at(Interpolation at, const Geometry& geometry, std::span<const std::uint32_t> triangles,
+                 const DepthRequest& depth, const FragmentNeeds& needs, BatchSink sink);
 
     // The number of fragments whose filtered depth or attribute needed the exact arithmetic of plane.h, for tests and
     // statistics.

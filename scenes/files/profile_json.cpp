@@ -39,6 +39,7 @@ constexpr std::size_t longest_name = 64, longest_description = 1000;
 // All other fields are required there, so that no default of the program enters a user's profile.
 constexpr std::string_view later_fields[] = {"alpha_to_coverage",
                                              "blend_storage",
+                                             "centroid",
                                              "clip_depth",
                                              "depth24",
                                              "depth_order",

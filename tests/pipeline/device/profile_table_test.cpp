@@ -155,6 +155,7 @@ constexpr FieldOfDevices device_table[] = {
       "codes_half_up"}},
     {"alpha_to_coverage", {"nearest", "nearest", "nearest", "nearest", "up", "up", "up", "nearest", "nearest"}},
     {"sample_coverage", {"nearest", "nearest", "nearest", "nearest", "down", "down", "down", "nearest", "nearest"}},
+    {"centroid", {"covered", "covered", "covered", "covered", "passing", "passing", "passing", "covered", "covered"}},
     {"max_render_targets", {"1", "8", "8", "8", "8", "8", "8", "8", "8"}},
     {"max_texture_units", {"4", "16", "16", "16", "32", "32", "32", "32", "16"}},
     {"max_viewport_px", {"4096", "8192", "8192", "16384", "16384", "16384", "16384", "8192", "16384"}},
@@ -219,6 +220,7 @@ const std::vector<NamesOfField> choice_names{
     {"resolve", {"codes_half_up", "single"}},
     {"alpha_to_coverage", {"nearest", "up", "down"}},
     {"sample_coverage", {"nearest", "up", "down"}},
+    {"centroid", {"covered", "passing"}},
 };
 
 [[nodiscard]] const ProfileField* field_named(std::string_view key) {

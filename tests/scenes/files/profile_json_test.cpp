@@ -118,6 +118,7 @@ TEST_CASE("without a base every key of the first packs is required") {
 TEST_CASE("missing later fields have the values of the behaviour before them singly and all together") {
     const std::set<std::string_view> later{"alpha_to_coverage",
                                            "blend_storage",
+                                           "centroid",
                                            "clip_depth",
                                            "depth24",
                                            "depth_order",

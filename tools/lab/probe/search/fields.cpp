@@ -75,6 +75,7 @@ constexpr Unprobed unprobed[]{
     {"sample_positions", "no scene has several samples per pixel"},
     {"resolve", "no scene has several samples per pixel"},
     {"alpha_to_coverage", "no scene has several samples per pixel"},
+    {"centroid", "no scene has several samples per pixel"},
     {"sample_coverage", "no scene has several samples per pixel"},
 };
 
