@@ -118,7 +118,8 @@ function drawLayer() {
     const f = fragment(p), v = f < 0 ? 0 : 255 * (1 - 0.9 * (layers.z[f] - near) / (far - near || 1));
     return f < 0 ? [40, 40, 60] : [v, v, v];
   });
-  at("layer-text").textContent = `${layer} of ${at("layer").max}: ${present} pixels`;
+  const { samples, sample } = shown.q.options;
+  at("layer-text").textContent = `${layer} of ${at("layer").max}: ${present} pixels` + (samples > 1 && sample === undefined ? " of sample 0" : "");
 }
 
 const hex = (bits) => (bits >>> 0).toString(16).padStart(8, "0");
