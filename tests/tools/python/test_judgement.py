@@ -36,6 +36,11 @@ def test_samples_are_those_of_the_command():
         strata.render(scene, shading="centre")
     with pytest.raises(strata.InputError, match="samples: expected 1 for fragments"):
         strata.fragments(scene, samples=2)
+    history = strata.explain(scene, 1, 0, "dual", size=(3, 1), samples=4)
+    assert sorted(len(strata.history_json(sample)["fragments"]) for sample in history.samples) == [0, 0, 1, 1]
+    assert "the box resolve of 4 samples" in history.text and len(strata.history_json(history)["histories"]) == 4
+    one = strata.explain(scene, 1, 0, "dual", size=(3, 1), samples=4, sample=0)
+    assert len(one.samples) == 1 and one.samples[0].text == one.text
 
 
 def sorted_over(region):

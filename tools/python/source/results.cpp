@@ -106,11 +106,9 @@ void bind_layers(py::module_& module) {
     });
 }
 
-// Fragments and histories are of one sample.
 void expect_one_sample(const Asked& asked) {
     if (asked.options.sampling.samples != 1)
-        throw InputError("options", "samples", "1 for fragments and histories",
-                         std::to_string(asked.options.sampling.samples));
+        throw InputError("options", "samples", "1 for fragments", std::to_string(asked.options.sampling.samples));
 }
 
 void bind_fragments(py::module_& module) {
@@ -133,21 +131,33 @@ void bind_fragments(py::module_& module) {
     });
 }
 
+// Each of several samples by itself.
+std::vector<oracle::SampledHistory> single_samples(const oracle::SampledHistory& history) {
+    std::vector<oracle::SampledHistory> all;
+    for (const oracle::History& sample : history.samples) all.push_back({.samples = {sample}});
+    return all;
+}
+
 void bind_history(py::module_& module) {
-    py::class_<oracle::History>(module, "History", "What happened at a pixel, in every pass.")
-        .def_property_readonly("text", [](const oracle::History& h) { return oracle::to_text(h); })
-        .def_property_readonly("json_text", [](const oracle::History& h) { return oracle::to_json(h); })
+    using oracle::SampledHistory;
+    py::class_<SampledHistory>(module, "History", "What happened at a pixel, in every pass.")
+        .def_property_readonly("text", [](const SampledHistory& h) { return oracle::to_text(h); })
+        .def_property_readonly(
+            "json_text",
+            [](const SampledHistory& h) {
+                return h.samples.size() == 1 ? oracle::to_json(h.samples[0]) : oracle::to_json(std::span{&h, 1});
+            })
         .def_property_readonly("svg",
-                               [](const oracle::History& h) {
-                                   return oracle::to_svg(std::span{&h, 1});
+                               [](const SampledHistory& h) {
+                                   return oracle::to_svg({&h.samples.at(0), 1});
                                })
-        .def_property_readonly("layers", [](const oracle::History& h) { return oracle::composited(h); });
+        .def_property_readonly("layers", [](const SampledHistory& h) { return oracle::composited(h.samples.at(0)); })
+        .def_property_readonly("samples", single_samples);
     module.def("_explain", [](const Scene& scene, int x, int y, const std::string& algorithm,
                               const std::string& profile, const py::kwargs& keywords) {
         const Asked asked{algorithm, profile, keywords};
-        expect_one_sample(asked);
         py::gil_scoped_release without_lock;
-        return explain(scene, x, y, asked.algorithm, asked.profile, asked.options);
+        return explain_samples(scene, x, y, asked.algorithm, asked.profile, asked.options);
     });
 }
 

@@ -105,7 +105,8 @@ def fragments(scene: _strata.Scene, algorithm: str = "a_buffer", *, profile: str
 
 
 def explain(scene: _strata.Scene, x: int, y: int, algorithm: str = "dual", *, profile: str = "ideal", **options: Any) -> History:
-    """The history of a pixel, counted from the top left: text, json_text, svg."""
+    """The history of a pixel, counted from the top left: text, json_text, svg, layers. With several samples text and json_text are of all, svg and
+    layers of sample 0, and `samples` has the history of each."""
     return _strata._explain(scene, x, y, algorithm, profile, **options)
 
 

@@ -41,6 +41,7 @@ class History:
     json_text: Final[str]
     svg: Final[str]
     layers: Final[list[list[int]]]
+    samples: Final[list[History]]
 
 class Tolerances:
     def __init__(self, *, color: int = ..., depth: int = ..., coverage: int = ..., pixels: int = ...) -> None: ...
