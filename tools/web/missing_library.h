@@ -6,9 +6,13 @@
 #pragma once
 #ifdef __cplusplus
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <functional>
 #include <iterator>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <version>
@@ -20,6 +24,52 @@ template <class To, class From>
 requires(sizeof(To) == sizeof(From) && is_trivially_copyable_v<To> && is_trivially_copyable_v<From>)
     [[nodiscard]] constexpr To bit_cast(const From& from) noexcept {
     return __builtin_bit_cast(To, from);
+}
+
+}  // namespace std
+#endif
+
+#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 200000
+namespace std {
+
+// The end of a decimal number as from_chars reads it; `first` if there is none.
+inline const char* strata_end_of_number(const char* first, const char* last) noexcept {
+    const auto past_digits = [last](const char* at) {
+        while (at != last && *at >= '0' && *at <= '9') ++at;
+        return at;
+    };
+    const char* const begin = first != last && *first == '-' ? first + 1 : first;
+    const char* end = past_digits(begin);
+    auto digits = end - begin;
+    if (end != last && *end == '.') {
+        const char* const fraction = end + 1;
+        end = past_digits(fraction);
+        digits += end - fraction;
+    }
+    if (digits == 0) return first;
+    if (end == last || (*end != 'e' && *end != 'E')) return end;
+    const char* const power = end + 1 != last && (end[1] == '-' || end[1] == '+') ? end + 2 : end + 1;
+    const char* const past_power = past_digits(power);
+    return past_power == power ? end : past_power;
+}
+
+template <class Real>
+inline from_chars_result strata_real_from_chars(const char* first, const char* last, Real& value) {
+    const char* const end = strata_end_of_number(first, last);
+    if (end == first) return {first, errc::invalid_argument};
+    const string text(first, end);
+    const Real read = is_same_v<Real, float> ? static_cast<Real>(strtof(text.c_str(), nullptr))
+                                             : static_cast<Real>(strtod(text.c_str(), nullptr));
+    const bool is_lost = read == 0 && text.find_first_of("123456789") < text.find_first_of("eE");
+    if (isinf(read) || is_lost) return {end, errc::result_out_of_range};
+    value = read;
+    return {end, errc{}};
+}
+inline from_chars_result from_chars(const char* first, const char* last, float& value) {
+    return strata_real_from_chars(first, last, value);
+}
+inline from_chars_result from_chars(const char* first, const char* last, double& value) {
+    return strata_real_from_chars(first, last, value);
 }
 
 }  // namespace std
@@ -88,6 +138,15 @@ constexpr void transform(R&& r, Out out, Of of) {
 template <class R, class Call>
 constexpr void for_each(R&& r, Call call) {
     for (auto&& e : r) std::invoke(call, e);
+}
+template <class R, class Value>
+constexpr void replace(R&& r, const Value& from, const Value& to) {
+    std::replace(std::begin(r), std::end(r), from, to);
+}
+template <class A, class B, class Same = std::equal_to<>, class OfA = strata_as_is, class OfB = strata_as_is>
+constexpr bool equal(A&& a, B&& b, Same same = {}, OfA of_a = {}, OfB of_b = {}) {
+    return std::equal(std::begin(a), std::end(a), std::begin(b), std::end(b),
+                      [&](auto&& x, auto&& y) { return same(std::invoke(of_a, x), std::invoke(of_b, y)); });
 }
 template <class R>
 constexpr void reverse(R&& r) {
