@@ -5,15 +5,29 @@
 #include <algorithm>
 #include <utility>
 
+#include "pipeline/stages/stage_lanes.h"
+
 namespace strata::pipeline {
 
-void PixelFragments::add_as(const FragmentBatch& batch, const Lanes<std::uint32_t>& alive, std::size_t number) {
+namespace {
+
+constexpr std::uint32_t pixel_of(std::uint64_t place) noexcept { return static_cast<std::uint32_t>(place) & 0xfffffff; }
+
+}  // namespace
+
+// A region has at most 2^28 pixels.
+void PixelFragments::add_as(const FragmentBatch& batch, const Lanes<std::uint32_t>& covered,
+                            const Lanes<std::uint32_t>& kept, std::uint32_t piece, std::uint32_t number) {
+    const auto width = static_cast<std::uint32_t>(region_.width()), x0 = static_cast<std::uint32_t>(region_.x0),
+               y0 = static_cast<std::uint32_t>(region_.y0);
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
-        if (alive[i] == 0) continue;
-        const std::uint64_t place =
-            std::uint64_t{batch.primitive[i]} << 32 | std::uint32_t{batch.y[i]} << 16 | batch.x[i];
-        fragments_.push_back({place,
-                              static_cast<std::uint32_t>(number),
+        if (covered[i] == 0) continue;
+        const std::uint32_t pixel = (batch.y[i] - y0) * width + batch.x[i] - x0;
+        fragments_.push_back({std::uint64_t{batch.primitive[i]} << 32 | piece << 28 | pixel,
+                              number,
+                              kept[i] != 0,
+                              batch.x[i],
+                              batch.y[i],
                               batch.reference_code[i],
                               batch.code[i],
                               batch.shader_z[i],
@@ -22,18 +36,26 @@ void PixelFragments::add_as(const FragmentBatch& batch, const Lanes<std::uint32_
     }
 }
 
-void PixelFragments::start(const SampleFragment& fragment, std::uint32_t pixel) {
+void PixelFragments::add_colors(const FragmentBatch& batch, const Lanes<std::uint32_t>& kept, std::uint32_t piece,
+                                std::size_t sample) {
+    add_as(batch, every_lane, kept, piece, first_color + static_cast<std::uint32_t>(sample));
+}
+
+void PixelFragments::start(const SampleFragment& fragment) {
     FragmentBatch& batch = pixels_.batch;
     const auto k = static_cast<std::size_t>(batch.count++);
+    const std::uint32_t pixel = pixel_of(fragment.place);
     batch.pixel[k] = pixel;
-    batch.x[k] = static_cast<std::uint16_t>(fragment.place);
-    batch.y[k] = static_cast<std::uint16_t>(fragment.place >> 16);
+    batch.x[k] = fragment.x;
+    batch.y[k] = fragment.y;
     batch.primitive[k] = static_cast<std::uint32_t>(fragment.place >> 32);
     batch.shader_z[k] = fragment.shader_z;
     batch.code[k] = batch.reference_code[k] = fragment.code;
     batch.reference_z[k] = fragment.reference_z;
     for (std::size_t c = 0; c < 4; ++c) batch.color[c][k] = fragment.color[c];
     pixels_.covered[k] = 0;
+    pixels_.kept[0][k] = fragment.is_kept ? 1 : 0;
+    pixels_.kept[1][k] = fragment.is_kept ? 0xff : 0;
     last_batch_[pixel] = number_;
 }
 
@@ -45,20 +67,19 @@ void PixelFragments::join(const std::function<void(PixelBatch&)>& sink) {
         batch.count = 0;
         ++number_;
     };
-    const auto width = static_cast<std::uint32_t>(region_.width());
     for (std::size_t i = 0; i < fragments_.size();) {
         const SampleFragment& first = fragments_[i];
-        const std::uint32_t x = static_cast<std::uint16_t>(first.place),
-                            y = static_cast<std::uint16_t>(first.place >> 16),
-                            pixel = (y - static_cast<std::uint32_t>(region_.y0)) * width + x -
-                                    static_cast<std::uint32_t>(region_.x0);
-        if (batch.count == batch_capacity || last_batch_[pixel] == number_) end_batch();
-        start(first, pixel);
+        if (batch.count == batch_capacity || last_batch_[pixel_of(first.place)] == number_) end_batch();
+        start(first);
         const auto k = static_cast<std::size_t>(batch.count - 1);
         for (; i < fragments_.size() && fragments_[i].place == first.place; ++i) {
             const SampleFragment& f = fragments_[i];
             if (f.number >= first_color) {
-                for (std::size_t c = 0; c < 4; ++c) pixels_.sample_color[f.number - first_color][c][k] = f.color[c];
+                const std::uint32_t sample = f.number - first_color;
+                for (std::size_t c = 0; c < 4; ++c) pixels_.sample_color[sample][c][k] = f.color[c];
+                const auto bit = static_cast<std::uint8_t>(1u << sample);
+                pixels_.kept[1][k] =
+                    static_cast<std::uint8_t>(f.is_kept ? pixels_.kept[1][k] | bit : pixels_.kept[1][k] & ~bit);
                 continue;
             }
             pixels_.covered[k] |= static_cast<std::uint8_t>(1u << f.number);

@@ -14,7 +14,7 @@
 #include <memory>
 #include <string>
 
-#include "pipeline/fragments/pixel_fragments.h"
+#include "pipeline/fragments/join_samples.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/region/region_loop.h"
 #include "pipeline/region/region_shared.h"
@@ -169,7 +169,7 @@ DrawCounts Region::draw_everything(const PassState& state, const PreparedDraw& l
 template <FragmentProgram P>
 DrawCounts Region::draw_once_a_pixel(const PassState& state, const PreparedDraw& list, P& program) {
     DrawCounts drawn;
-    source_.for_each_pixel_batch(list, state, rect(), FragmentSource::Colors::once, [&](PixelBatch& pixels) {
+    source_.for_each_pixel_batch(list, state, rect(), JoinedColors::once, [&](PixelBatch& pixels) {
         Outputs& out = stages_.test_pixels(state, pixels, drawn);
         stages_.load(state, pixels.batch);
         const auto run = [&] { program(static_cast<const FragmentBatch&>(pixels.batch), stages_.loads(), out); };
@@ -188,7 +188,7 @@ DrawCounts Region::draw_together(const PassState& state, const PreparedDraw& lis
         stages_.show(Stage::shaded, state, batch, out, out.alive);
         run_batch(state, program, batch, out, drawn);
     };
-    source_.for_each_pixel_batch(list, state, rect(), FragmentSource::Colors::at_centre_and_samples,
+    source_.for_each_pixel_batch(list, state, rect(), JoinedColors::at_centre_and_samples,
                                  [&](PixelBatch& pixels) { stages_.for_each_sample(state, pixels, run_sample); });
     end_pass(state, PassKind::geometry, drawn);
     return drawn;

@@ -103,7 +103,7 @@ template <class P>
 void RegionShortcuts::visit_pixels(const PassState& state, const rasterizer::Rect& band, P&& program) {
     const UncountedWork look{region_.shared_.statistics};
     DrawCounts drawn;
-    region_.source_.for_each_pixel_batch(*region_.frame().transparent, state, band, FragmentSource::Colors::once,
+    region_.source_.for_each_pixel_batch(*region_.frame().transparent, state, band, JoinedColors::once,
                                          [&](PixelBatch& pixels) {
                                              const Outputs& out = region_.stages_.test_pixels(state, pixels, drawn);
                                              program(static_cast<const FragmentBatch&>(pixels.batch), out);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "pipeline/fragments/pixel_fragments.h"
+#include "pipeline/fragments/join_samples.h"
 #include "pipeline/fragments/record_rows.h"
 #include "pipeline/frame/effects.h"
 #include "pipeline/region/region_scratch.h"
@@ -20,17 +20,6 @@ namespace strata::pipeline {
 
 using rasterizer::FragmentNeeds;
 using rasterizer::Rect;
-
-namespace {
-
-constexpr std::uint64_t most_at_a_time = 1u << 16;  // pixels of triangles whose fragments are joined together
-
-std::uint64_t shared_area(const rasterizer::PixelBox& box, const Rect& band) noexcept {
-    // The boxes of the other samples are at most one pixel larger on every side.
-    return rasterizer::intersection({box.x0 - 1, box.y0 - 1, box.x1 + 1, box.y1 + 1}, band).area();
-}
-
-}  // namespace
 
 FragmentSource::FragmentSource(const RegionShared& shared, Targets& targets, Stages& stages)
     : shared_{shared},
@@ -71,41 +60,31 @@ void FragmentSource::rasterize(const PreparedDraw& list, FragmentNeeds needs,
     // a silent query does not order fragments
     const bool checks = shared_.wraps_depths() && needs.code && (shared_.statistics.counts || from_ == From::recording);
     const rasterizer::BatchSink sink = checks ? rasterizer::BatchSink{checked} : given;
-    const rasterizer::Interpolation at = list.geometry.state.interpolation;
-    rasterize_sample(list, 0, needs, primitives, *rasterizer_, at, sink);
+    rasterize_sample(list, 0, needs, primitives, sink);
     for (std::size_t sample = 1; sample < shared_.samples; ++sample) {
         auto moved = [&, first = static_cast<std::uint32_t>(sample * shared_.pixels())](FragmentBatch& batch) {
             for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) batch.pixel[i] += first;
             sink(batch);
         };
-        rasterize_sample(list, sample, needs, primitives, *rasterizer_, at, rasterizer::BatchSink{moved});
+        rasterize_sample(list, sample, needs, primitives, rasterizer::BatchSink{moved});
     }
 }
 
-// Without ranges all triangles are drawn. Triangles are in submission order, and the pieces of a clipped one have its
-// index, so a range of primitives is a contiguous range of triangles.
+// Without ranges all triangles are drawn.
 void FragmentSource::rasterize_sample(const PreparedDraw& list, std::size_t sample, const FragmentNeeds& needs,
-                                      std::span<const PrimitiveRange> primitives, rasterizer::TileRasterizer& walk,
-                                      rasterizer::Interpolation at, rasterizer::BatchSink sink) {
+                                      std::span<const PrimitiveRange> primitives, rasterizer::BatchSink sink) {
     const rasterizer::Geometry& geometry = list.of_sample(sample);
     const auto triangles = triangles_of(list, sample);
-    if (primitives.empty()) walk.draw_at(at, geometry, triangles, shared_.frame.key_request(), needs, sink);
-    const auto before = [&](std::uint32_t triangle, std::uint32_t primitive) {
-        return geometry.triangles[triangle].primitive < primitive;
-    };
-    for (const PrimitiveRange& range : primitives) {
-        const auto first = std::lower_bound(triangles.begin(), triangles.end(), range.first, before);
-        const auto last = std::lower_bound(first, triangles.end(), range.last, before);
-        const auto part = triangles.subspan(static_cast<std::size_t>(first - triangles.begin()),
-                                            static_cast<std::size_t>(last - first));
-        walk.draw_at(at, geometry, part, shared_.frame.key_request(), needs, sink);
-    }
+    const rasterizer::DepthRequest depth = shared_.frame.key_request();
+    if (primitives.empty()) rasterizer_->draw(geometry, triangles, depth, needs, sink);
+    for (const PrimitiveRange& range : primitives)
+        rasterizer_->draw(geometry, triangles_in(geometry, triangles, range), depth, needs, sink);
 }
 
 // The part of the region is divided into rows if the region is the whole frame, so that few fragments are joined at a
 // time. Pixels are independent of one another, so a division changes nothing.
 void FragmentSource::for_each_pixel_batch(const PreparedDraw& list, const PassState& state, const Rect& part,
-                                          Colors colors, const std::function<void(PixelBatch&)>& sink) {
+                                          JoinedColors colors, const std::function<void(PixelBatch&)>& sink) {
     FragmentNeeds needs = pass_needs(state, needs_of_tile(list), Effects::needed);
     needs.code = needs.reference = true;
     PathTaken& taken = shared_.statistics.taken;
@@ -115,50 +94,24 @@ void FragmentSource::for_each_pixel_batch(const PreparedDraw& list, const PassSt
     }
     stages_.set_material(needs.color && needs_of_tile(list).texcoord, needs.color && list.needs.shadow != 0);
     if (joined_ == nullptr) joined_ = std::make_unique<PixelFragments>(shared_.rect());
-    const int rows = shared_.is_frame() ? std::max(1, 4096 / part.width()) : part.height();
-    for (int y = part.y0; y < part.y1; y += rows)
-        join_samples(list, needs, {part.x0, y, part.x1, std::min(y + rows, part.y1)}, colors, sink);
-}
-
-// Triangle after triangle, as many at a time as have few pixels here.
-void FragmentSource::join_samples(const PreparedDraw& list, const FragmentNeeds& needs, const Rect& band, Colors colors,
-                                  const std::function<void(PixelBatch&)>& sink) {
-    rasterizer::TileRasterizer walk{band};
-    const std::span<const std::uint32_t> triangles = triangles_of(list, 0);
-    std::size_t next = 0;
-    for (PrimitiveRange range{0, 0}; range.last != ~0u; range.first = range.last) {
-        std::uint64_t area = 0;
-        for (range.last = ~0u; next < triangles.size(); ++next) {
-            const rasterizer::TriangleRecord& triangle = list.geometry.triangles[triangles[next]];
-            if (area > most_at_a_time && triangle.primitive > range.first) {
-                range.last = triangle.primitive;
-                break;
-            }
-            area += shared_area(triangle.box, band);
-        }
-        for (std::size_t sample = 0; sample < shared_.samples; ++sample)
-            join_sample(list, needs, range, sample, colors, walk);
-        joined_->join(sink);
-    }
-}
-
-void FragmentSource::join_sample(const PreparedDraw& list, const FragmentNeeds& needs, const PrimitiveRange& range,
-                                 std::size_t sample, Colors colors, rasterizer::TileRasterizer& walk) {
-    using rasterizer::Interpolation;
-    const auto shaded = [&](FragmentBatch& batch) -> const Lanes<std::uint32_t>& {
+    const auto shade = [&](FragmentBatch& batch, bool again) -> const Lanes<std::uint32_t>& {
+        std::optional<UncountedWork> same;
+        if (again) same.emplace(shared_.statistics);
         if (shared_.wraps_depths()) require_range(batch);
         Outputs& out = stages_.start_batch(batch);
         stages_.shade(list, batch, out);
         return out.alive;
     };
-    auto add = [&](FragmentBatch& batch) { joined_->add(batch, shaded(batch), sample); };
-    const bool is_once = colors == Colors::once;
-    rasterize_sample(list, sample, needs, {&range, 1}, walk,
-                     is_once ? list.geometry.state.interpolation : Interpolation::centre, rasterizer::BatchSink{add});
-    if (is_once || !needs.color) return;
-    const UncountedWork again{shared_.statistics};  // the same fragments
-    auto add_colors = [&](FragmentBatch& batch) { joined_->add_colors(batch, shaded(batch), sample); };
-    rasterize_sample(list, sample, needs, {&range, 1}, walk, Interpolation::sample, rasterizer::BatchSink{add_colors});
+    const SamplesToJoin samples{list,
+                                shared_.samples,
+                                [&](std::size_t sample) { return triangles_of(list, sample); },
+                                shared_.frame.key_request(),
+                                needs,
+                                colors,
+                                shade};
+    const int rows = shared_.is_frame() ? std::max(1, 4096 / part.width()) : part.height();
+    for (int y = part.y0; y < part.y1; y += rows)
+        join_samples(samples, {part.x0, y, part.x1, std::min(y + rows, part.y1)}, *joined_, sink);
 }
 
 // Codes outside the depth range are ordered differently from keys: if one occurs, the frame is drawn literally

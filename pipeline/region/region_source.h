@@ -24,6 +24,7 @@ namespace strata::pipeline {
 class Stages;
 class Targets;
 struct RegionShared;
+enum class JoinedColors : std::uint8_t;
 struct KeyIntervals;
 struct PixelBatch;
 class PixelFragments;
@@ -37,11 +38,9 @@ class FragmentSource {
 
     // All fragments of a pass, from the record if possible.
     void for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink);
-    // The fragments of a part of the region, joined from those of all samples: with values where the geometry's state
-    // says, or with the colours at the centre and at every covered sample.
-    enum class Colors : std::uint8_t { once, at_centre_and_samples };
+    // The fragments of a part of the region, joined from those of all samples.
     void for_each_pixel_batch(const PreparedDraw& list, const PassState& state, const rasterizer::Rect& part,
-                              Colors colors, const std::function<void(PixelBatch&)>& sink);
+                              JoinedColors colors, const std::function<void(PixelBatch&)>& sink);
     [[nodiscard]] bool reads_record() const noexcept { return from_ == From::record; }
 
     // Finds the fragments that a selection keeps, if possible; next_visit returns them batch by batch, null after the
@@ -77,12 +76,7 @@ class FragmentSource {
     void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs,
                    std::span<const PrimitiveRange> primitives, rasterizer::BatchSink sink);
     void rasterize_sample(const PreparedDraw& list, std::size_t sample, const rasterizer::FragmentNeeds& needs,
-                          std::span<const PrimitiveRange> primitives, rasterizer::TileRasterizer& walk,
-                          rasterizer::Interpolation at, rasterizer::BatchSink sink);
-    void join_samples(const PreparedDraw& list, const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band,
-                      Colors colors, const std::function<void(PixelBatch&)>& sink);
-    void join_sample(const PreparedDraw& list, const rasterizer::FragmentNeeds& needs, const PrimitiveRange& range,
-                     std::size_t sample, Colors colors, rasterizer::TileRasterizer& walk);
+                          std::span<const PrimitiveRange> primitives, rasterizer::BatchSink sink);
     void require_range(const FragmentBatch& batch) const;
     [[nodiscard]] bool may_record(const PreparedDraw& list) const;
     [[nodiscard]] bool record(const PreparedDraw& list, const rasterizer::FragmentNeeds& needs);

@@ -191,9 +191,13 @@ void Stages::for_each_sample(const PassState& state, PixelBatch& pixels,
         const Outputs& passing = test_pixels(early, pixels, none);
         const unsigned all = (1u << shared_.samples) - 1;
         for (std::size_t i = 0; i < static_cast<std::size_t>(pixels.batch.count); ++i) {
-            if (passing.samples[i] == 0 || passing.samples[i] == all) continue;
-            const auto first = static_cast<std::size_t>(std::countr_zero(passing.samples[i]));
-            for (std::size_t c = 0; c < 4; ++c) pixels.batch.color[c][i] = pixels.sample_color[first][c][i];
+            bool is_kept = pixels.kept[0][i] != 0;
+            if (passing.samples[i] != 0 && passing.samples[i] != all) {
+                const auto first = static_cast<std::size_t>(std::countr_zero(passing.samples[i]));
+                for (std::size_t c = 0; c < 4; ++c) pixels.batch.color[c][i] = pixels.sample_color[first][c][i];
+                is_kept = (pixels.kept[1][i] >> first & 1u) != 0;
+            }
+            if (!is_kept) pixels.covered[i] = 0;
         }
     }
     Lanes<std::uint32_t> alive;

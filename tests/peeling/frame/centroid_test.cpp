@@ -22,10 +22,11 @@ using strata::rasterizer::Interpolation;
 
 constexpr std::size_t pixel_samples = 4;
 
-// Only transparent triangles, so that nothing is drawn before the peel.
+// Only transparent triangles, so that nothing is drawn before the peel; within the view, so that none is clipped.
 TriangleScene panes(std::uint64_t seed) {
     TriangleScene scene = random_triangles(seed, 40);
     scene.list.instances.resize(1);
+    for (auto& position : scene.list.meshes[0].positions) position[0] *= 0.75f, position[1] *= 0.75f;
     return scene;
 }
 

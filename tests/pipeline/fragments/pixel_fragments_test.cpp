@@ -48,7 +48,7 @@ TEST_CASE("the fragments that a triangle has at the samples of a pixel are one, 
                     if (samples.contains(sample)) alive[i] = 0;  // a triangle covers a sample once
                     if (alive[i] != 0) samples[sample] = batch->code[i];
                 }
-                joined.add(*batch, alive, sample);
+                joined.add(*batch, alive, alive, 0, sample);
             }
         std::erase_if(given, [](const auto& entry) { return entry.second.empty(); });
         std::uint64_t twice = 0, disordered = 0, wrong = 0;
