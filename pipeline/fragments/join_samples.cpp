@@ -20,8 +20,8 @@ constexpr std::uint64_t most_at_a_time = 1u << 16;  // pixels of triangles whose
 // The piece of a clipped triangle: its place in the fan, by the corners that it has beside the fan's first. The same
 // for all samples; of a triangle that is not clipped any number.
 std::uint32_t piece_of(const rasterizer::TriangleRecord& triangle) noexcept {
-    const auto [least, greatest] = std::ranges::minmax(triangle.vertex);
-    return std::min(greatest - least, PixelFragments::most_pieces - 1);
+    const auto [least, greatest] = std::minmax_element(triangle.vertex.begin(), triangle.vertex.end());
+    return std::min(*greatest - *least, PixelFragments::most_pieces - 1);
 }
 
 std::uint64_t shared_area(const rasterizer::PixelBox& box, const Rect& band) noexcept {
