@@ -102,8 +102,7 @@ Color atomic_loop(const Nodes& nodes, const AlgorithmOptions& options, unsigned 
     std::vector<std::uint32_t> keys;
     for (const Node& node : nodes) keys.push_back(node.key);
     std::ranges::sort(keys);
-    const auto same = std::ranges::unique(keys);
-    keys.erase(same.begin(), same.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     keys.resize(std::min(keys.size(), static_cast<std::size_t>(options.nodes)));
     Nodes entries(keys.size());
     for (const Node& node : nodes) {
