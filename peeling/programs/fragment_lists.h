@@ -49,13 +49,17 @@ struct FragmentLists {
     PixelRange pixels;
     std::vector<std::size_t> start, end;   // per pixel of the range, offsets in `fragments`
     std::vector<KeyedFragment> fragments;  // may be longer than needed
-    std::vector<std::uint8_t> samples;     // of lists of pixels: the mask of each fragment
+    std::vector<std::uint8_t> samples;     // of lists of pixels: the mask of each fragment; else empty
     std::vector<std::uint32_t>
         at_opaque;  // per pixel of the range: fragments that LESS hides behind a surface of the same key
     // `pixel` is an index in the region.
     [[nodiscard]] std::span<const KeyedFragment> of(std::uint32_t pixel) const noexcept {
         const std::size_t p = pixel - pixels.first;
         return {fragments.data() + start[p], end[p] - start[p]};
+    }
+    // The mask of fragment i of a pixel; in lists of samples it has one bit.
+    [[nodiscard]] std::uint8_t samples_of(std::uint32_t pixel, std::size_t i) const noexcept {
+        return samples.empty() ? std::uint8_t{1} : samples[start[pixel - pixels.first] + i];
     }
 };
 

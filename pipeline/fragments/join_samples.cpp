@@ -15,7 +15,7 @@ using rasterizer::Rect;
 
 namespace {
 
-constexpr std::uint64_t most_at_a_time = 1u << 16;  // pixels of triangles whose fragments are joined together
+constexpr std::uint64_t most_at_a_time = 1u << 14;  // pixels of triangles whose fragments are joined together
 
 // The piece of a clipped triangle: its place in the fan, by the corners that it has beside the fan's first. The same
 // for all samples; of a triangle that is not clipped any number.

@@ -13,6 +13,7 @@
 #include <functional>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <version>
@@ -32,35 +33,18 @@ requires(sizeof(To) == sizeof(From) && is_trivially_copyable_v<To> && is_trivial
 #if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 200000
 namespace std {
 
-// The end of a decimal number as from_chars reads it; `first` if there is none.
-inline const char* strata_end_of_number(const char* first, const char* last) noexcept {
-    const auto past_digits = [last](const char* at) {
-        while (at != last && *at >= '0' && *at <= '9') ++at;
-        return at;
-    };
-    const char* const begin = first != last && *first == '-' ? first + 1 : first;
-    const char* end = past_digits(begin);
-    auto digits = end - begin;
-    if (end != last && *end == '.') {
-        const char* const fraction = end + 1;
-        end = past_digits(fraction);
-        digits += end - fraction;
-    }
-    if (digits == 0) return first;
-    if (end == last || (*end != 'e' && *end != 'E')) return end;
-    const char* const power = end + 1 != last && (end[1] == '-' || end[1] == '+') ? end + 2 : end + 1;
-    const char* const past_power = past_digits(power);
-    return past_power == power ? end : past_power;
-}
-
+// Of the characters of decimal numbers strtod reads as many as from_chars, which takes no leading plus.
 template <class Real>
 inline from_chars_result strata_real_from_chars(const char* first, const char* last, Real& value) {
-    const char* const end = strata_end_of_number(first, last);
-    if (end == first) return {first, errc::invalid_argument};
-    const string text(first, end);
-    const Real read = is_same_v<Real, float> ? static_cast<Real>(strtof(text.c_str(), nullptr))
-                                             : static_cast<Real>(strtod(text.c_str(), nullptr));
-    const bool is_lost = read == 0 && text.find_first_of("123456789") < text.find_first_of("eE");
+    const auto is_foreign = [](char c) { return string_view{"0123456789.eE+-"}.find(c) == string_view::npos; };
+    const string text(first, find_if(first, last, is_foreign));
+    char* past = nullptr;
+    const Real read = is_same_v<Real, float> ? static_cast<Real>(strtof(text.c_str(), &past))
+                                             : static_cast<Real>(strtod(text.c_str(), &past));
+    const char* const end = first + (past - text.c_str());
+    if (end == first || *first == '+') return {first, errc::invalid_argument};
+    const string_view used(first, static_cast<size_t>(end - first));
+    const bool is_lost = read == 0 && used.find_first_of("123456789") < used.find_first_of("eE");
     if (isinf(read) || is_lost) return {end, errc::result_out_of_range};
     value = read;
     return {end, errc{}};

@@ -89,21 +89,12 @@ using namespace pipeline;
 
 namespace {
 
-// What is behind the opaque surface is discarded by the program, or by the test that precedes it.
-void see_visible(Region& region, const ListElements& lists, PassState& state) {
-    if (lists.are_pixels())
-        state.once_a_pixel = true;
-    else
-        state.reads[0] = region.opaque_depth();
-}
-
 void find_depths(Region& region, const ListElements& lists, AtomicEntries& entries) {
     PassState state;
-    if (lists.are_pixels()) state = state_of_pixels(region);
     state.needs = code_only;
-    see_visible(region, lists, state);
+    lists.see_visible(state);
     static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
-        if (!lists.are_pixels()) keep_before(in, loads.depth(0), out);
+        lists.keep_visible(in, loads, out);
         for (std::size_t i = 0; i < lanes(in); ++i)
             if (out.alive[i] != 0) entries.add_code(in.pixel[i], in.code[i]);
     }));
@@ -113,9 +104,9 @@ void find_depths(Region& region, const ListElements& lists, AtomicEntries& entri
 void find_colors(Region& region, const ListElements& lists, AtomicEntries& entries, const TailTargets& tail) {
     PixelSet overflow{region};
     PassState state = tail.state();
-    see_visible(region, lists, state);
+    lists.see_visible(state);
     static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
-        if (!lists.are_pixels()) keep_before(in, loads.depth(0), out);
+        lists.keep_visible(in, loads, out);
         for (std::size_t i = 0; i < lanes(in); ++i) {
             if (out.alive[i] == 0) continue;
             const Rgba color{in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]};

@@ -60,26 +60,16 @@ class KBuffer {
     // The geometry pass: the program reads and writes the four entries of its pixel in submission order.
     void insert_all() {
         PassState state = composite_state(accumulated_);
-        state.reads = {region_.opaque_depth(), depths_};
-        state.color[1] = depths_;
+        state.color[1] = state.reads[1] = depths_;
+        state.color[2 + k] = state.reads[2 + k] = masks_;
         for (std::size_t i = 0; i < k; ++i) state.color[2 + i] = state.reads[2 + i] = colors_[i];
         state.ordered_rmw = true;
-        if (lists_.are_pixels()) see_pixels(state);
+        lists_.see_visible(state);
         static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& loads, Outputs& out) {
-            if (!lists_.are_pixels()) keep_before(in, loads.depth(0), out);
+            lists_.keep_visible(in, loads, out);
             for (std::size_t i = 0; i < lanes(in); ++i)
                 if (out.alive[i] != 0) insert(in, loads, out, i);
         }));
-    }
-
-    // In a pass once a pixel the test precedes the program, and entries have masks.
-    void see_pixels(PassState& state) const {
-        const PassState tested = state_of_pixels(region_);
-        state.depth = tested.depth;
-        state.depth_target = tested.depth_target;
-        state.once_a_pixel = true;
-        state.reads[0] = {};
-        state.color[2 + k] = state.reads[2 + k] = masks_;
     }
 
     // Inserts the fragment behind all entries of less or equal depth, and composites the nearest entry if there are now
@@ -116,7 +106,10 @@ class KBuffer {
         if (lists_.are_pixels()) out.samples[i] = entry.samples;
         if (entry.depth == no_entry) return;
         pushed_out_[pixel] = std::max(pushed_out_[pixel], entry.depth);
-        if (region_.frame().trace) region_.trace({pixel, depth_as_code(entry.depth, format_), 0, Side::front, false});
+        if (!region_.frame().trace) return;
+        lists_.for_each_element(pixel, entry.samples, [&](std::uint32_t element) {
+            region_.trace({element, depth_as_code(entry.depth, format_), 0, Side::front, false});
+        });
     }
 
     // One full-screen quad per entry, near to far; pixels whose entry is empty are discarded.

@@ -94,23 +94,23 @@ void composite_list(NodeLists& lists, std::uint32_t pixel, const FragmentLists& 
     const bool keeps_near = is_full && rule == Overflow::drop_far;
     sort_by(&KeyedFragment::key, keeps_near ? fragments : fragments.first(nodes), order);
     if (keeps_near) order.resize(nodes);
-    const std::size_t first = found.start[pixel - found.pixels.first];
-    for (std::uint32_t element = pixel; element < lists.composited.size();
-         element += static_cast<std::uint32_t>(lists.coverage.size())) {
+    lists.elements.for_each_element(pixel, 0xff, [&](std::uint32_t element) {
         Rgba color = lists.region.targets().color(lists.region.opaque_color(), element);
         const auto blend = [&](std::size_t i) {
-            if (!lists.elements.are_pixels() || (found.samples[first + i] & lists.elements.bit_of(element)) != 0)
+            if ((found.samples_of(pixel, i) & lists.elements.bit_of(element)) != 0)
                 blend_over(color, fragments[i].color);
         };
         if (rule == Overflow::blend)
             for (std::size_t i = nodes; i < fragments.size(); ++i) blend(i);
         for (std::size_t i = order.size(); i-- > 0;) blend(submission_index(order[i]));
         lists.composited[element] = color;
-    }
+    });
     if (!lists.region.frame().trace) return;
     for (const std::uint64_t entry : order) {
-        const KeyedFragment& f = fragments[submission_index(entry)];
-        lists.region.trace({pixel, f.key, f.primitive, Side::front, true});
+        const std::size_t i = submission_index(entry);
+        lists.elements.for_each_element(pixel, found.samples_of(pixel, i), [&](std::uint32_t element) {
+            lists.region.trace({element, fragments[i].key, fragments[i].primitive, Side::front, true});
+        });
     }
 }
 

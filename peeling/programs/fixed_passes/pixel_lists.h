@@ -43,6 +43,29 @@ class ListElements {
     [[nodiscard]] std::uint8_t samples_of(const pipeline::Outputs& out, std::size_t lane) const noexcept {
         return of_pixels_ ? out.samples[lane] : std::uint8_t{1};
     }
+    // Calls visit(element) for the elements of a list whose samples are in the mask.
+    template <class Visit>
+    void for_each_element(std::uint32_t list, std::uint8_t samples, const Visit& visit) const {
+        for (std::size_t element = list; element < region_.elements(); element += count())
+            if ((samples & bit_of(static_cast<std::uint32_t>(element))) != 0)
+                visit(static_cast<std::uint32_t>(element));
+    }
+    // Adds the test against the opaque surface to a pass: a program of samples loads it, as its first load, and calls
+    // keep_visible; a program of pixels runs after the test.
+    void see_visible(pipeline::PassState& state) const {
+        if (!of_pixels_) {
+            state.reads[0] = region_.opaque_depth();
+            return;
+        }
+        const pipeline::PassState tested = state_of_pixels(region_);
+        state.depth = tested.depth;
+        state.depth_target = tested.depth_target;
+        state.once_a_pixel = true;
+    }
+    void keep_visible(const pipeline::FragmentBatch& in, const pipeline::Loads& loads, pipeline::Outputs& out) const {
+        for (std::size_t i = 0; !of_pixels_ && i < static_cast<std::size_t>(in.count); ++i)
+            out.alive[i] &= pipeline::mask(in.code[i] < loads.depth(0)[i]);
+    }
     [[nodiscard]] pipeline::Target make(pipeline::Format format) const {
         return of_pixels_ ? region_.targets().make_of_pixels(format) : region_.make(format);
     }

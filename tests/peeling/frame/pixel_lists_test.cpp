@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "peeling/audit/region_trace.h"
 #include "peeling/render.h"
 #include "tests/peeling/rendering.h"
 #include "tests/support/random_triangles.h"
@@ -248,6 +249,31 @@ TEST_CASE("a list of a pixel has nodes with masks that are composited at the sam
                 CHECK(drawn_by(scene, choice.algorithm, other).frame.samples == drawn.frame.samples);
             }
         }
+}
+
+TEST_CASE("the trace of lists of pixels has every node at each sample of its mask") {
+    const TriangleScene scene = random_triangles(5603, 30);
+    const RenderOptions options = options_of(4, Interpolation::centre);
+    const std::vector<Nodes> nodes = nodes_of(scene, options);
+    const auto pixels = static_cast<std::uint32_t>(options.width * options.height);
+    for (const char* algorithm : {"linked_list", "k_buffer"}) {
+        RenderOptions whole = options;
+        whole.execution = strata::pipeline::Execution::literal;
+        Renderer renderer{scene.list, scene.view, *find_profile("ideal"), whole};
+        std::vector<strata::peeling::RegionTrace> traces;
+        REQUIRE(renderer.render_traced(*find_algorithm(algorithm), traces).outcome == Outcome::done);
+        std::vector<std::vector<std::uint32_t>> found(4 * nodes.size()), expected(4 * nodes.size());
+        for (const auto& trace : traces)
+            for (const auto& entry : trace.entries) found[entry.pixel].push_back(entry.key);
+        for (std::size_t e = 0; e < expected.size(); ++e) {
+            for (const Node& node : nodes[e % pixels])
+                if ((node.mask >> e / pixels & 1u) != 0) expected[e].push_back(node.key);
+            std::ranges::sort(expected[e]);
+            std::ranges::sort(found[e]);
+        }
+        INFO(algorithm);
+        CHECK(found == expected);
+    }
 }
 
 TEST_CASE("along edges inside a surface lists of pixels overflow where lists of samples do not") {

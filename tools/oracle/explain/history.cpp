@@ -28,6 +28,8 @@ std::string_view name(Fate fate) noexcept { return enum_name(fate); }
 
 std::string_view name(LineKind kind) noexcept { return enum_name(kind); }
 
+using peeling::FrameRequest;
+
 namespace {
 
 bool holds(pipeline::CompareFunc func, std::uint32_t own, std::uint32_t stored) noexcept {
@@ -277,7 +279,7 @@ class Recorder {
     int pass_ = 0;
 };
 
-std::vector<History> empty_histories(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
+std::vector<History> empty_histories(const FrameRequest& input, const peeling::Algorithm& algorithm,
                                      const rasterizer::Rect& pixels) {
     std::vector<History> histories;
     for (int y = pixels.y0; y < pixels.y1; ++y)
@@ -295,15 +297,15 @@ void check_pixels(const rasterizer::Rect& pixels, int width, int height) {
 
 // What is recorded of one sample.
 struct Recording {
-    Recording(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
-              const rasterizer::Rect& in_memory, int sample = 0)
+    Recording(const FrameRequest& input, const peeling::Algorithm& algorithm, const rasterizer::Rect& in_memory,
+              int sample = 0)
         : histories{empty_histories(input, algorithm, in_memory)},
           recorder{in_memory, input.options, sample, algorithm.key, histories} {}
     Recording(const Recording&) = delete;
     Recording& operator=(const Recording&) = delete;
 
     // `input` is that of a frame of the sample alone.
-    [[nodiscard]] std::vector<History> finish(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
+    [[nodiscard]] std::vector<History> finish(const FrameRequest& input, const peeling::Algorithm& algorithm,
                                               const rasterizer::Rect& in_memory) && {
         for (History& history : histories) {
             history.depth_format = format;
@@ -324,8 +326,7 @@ struct Recording {
 using Recordings = std::vector<std::unique_ptr<Recording>>;
 
 // Runs the algorithm with every effect, and returns the published picture.
-pipeline::Image record(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
-                       const Recordings& recordings) {
+pipeline::Image record(const FrameRequest& input, const peeling::Algorithm& algorithm, const Recordings& recordings) {
     const auto each = [&recordings](const auto& tell) {
         for (const auto& recording : recordings) tell(*recording);
     };
@@ -343,14 +344,14 @@ pipeline::Image record(const peeling::FrameRequest& input, const peeling::Algori
                      const StageEvent& event) { each([&](Recording& r) { r.recorder.stage(region, event); }); },
         .traced = [&](const Region&,
                       const pipeline::TraceEntry& entry) { each([&](Recording& r) { r.recorder.traced(entry); }); }};
-    peeling::FrameRequest everything = input;
+    FrameRequest everything = input;
     everything.options.effects = pipeline::Effects::all;
     return observe(everything, algorithm, observer);
 }
 
 }  // namespace
 
-std::vector<History> explain(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
+std::vector<History> explain(const FrameRequest& input, const peeling::Algorithm& algorithm,
                              const rasterizer::Rect& pixels) {
     check_pixels(pixels, input.options.width, input.options.height);
     const rasterizer::Rect in_memory = peeling::AsShown{input.options, input.profile}.rect(pixels);
@@ -360,7 +361,7 @@ std::vector<History> explain(const peeling::FrameRequest& input, const peeling::
     return std::move(*recordings[0]).finish(input, algorithm, in_memory);
 }
 
-SampledHistory explain_samples(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm, int x, int y) {
+SampledHistory explain_samples(const FrameRequest& input, const peeling::Algorithm& algorithm, int x, int y) {
     const rasterizer::Rect pixel{x, y, x + 1, y + 1};
     check_pixels(pixel, input.options.width, input.options.height);
     const rasterizer::Rect in_memory = peeling::AsShown{input.options, input.profile}.rect(pixel);
@@ -370,7 +371,7 @@ SampledHistory explain_samples(const peeling::FrameRequest& input, const peeling
     const pipeline::Image picture = record(input, algorithm, recordings);
     SampledHistory result{.sampling = input.options.sampling, .format = picture.format};
     for (std::size_t sample = 0; sample < recordings.size(); ++sample) {
-        peeling::FrameRequest single = input;
+        FrameRequest single = input;
         single.options.sampling = {};
         if (recordings.size() > 1)
             pipeline::set_sample(single.options.raster, input.profile.sample_positions, input.options.sampling.samples,
@@ -381,12 +382,6 @@ SampledHistory explain_samples(const peeling::FrameRequest& input, const peeling
     }
     for (int c = 0; c < picture.channels(); ++c) result.resolved.push_back(picture.codes[picture.index(x, y, c)]);
     return result;
-}
-
-std::vector<History> of_sample(std::span<const SampledHistory> histories, std::size_t sample) {
-    std::vector<History> chosen;
-    for (const SampledHistory& history : histories) chosen.push_back(history.samples.at(sample));
-    return chosen;
 }
 
 std::vector<std::vector<int>> composited(const History& history) {

@@ -114,7 +114,11 @@ struct SampledHistory {
     std::vector<std::uint32_t> resolved{};  // the pixel of the picture
 };
 // The histories of one sample by all algorithms.
-[[nodiscard]] std::vector<History> of_sample(std::span<const SampledHistory> histories, std::size_t sample);
+[[nodiscard]] inline std::vector<History> of_sample(std::span<const SampledHistory> histories, std::size_t sample) {
+    std::vector<History> chosen;
+    for (const SampledHistory& history : histories) chosen.push_back(history.samples.at(sample));
+    return chosen;
+}
 [[nodiscard]] SampledHistory explain_samples(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
                                              int x, int y);
 
