@@ -15,7 +15,7 @@ namespace strata::pipeline {
 
 // True if rows provide the values that `needs` names.
 [[nodiscard]] constexpr bool rows_have(const rasterizer::FragmentNeeds& needs) noexcept {
-    return !needs.exact_code && !needs.reference && !needs.texcoord && !needs.facing && needs.units == 0;
+    return !needs.exact_code && !needs.reference && !needs.texcoord && !needs.facing && !needs.has_extras();
 }
 
 // Adds the fragments of `triangles` in `region` to a record that has been started, and returns their number.

@@ -50,9 +50,9 @@ class TileFragments {
     [[nodiscard]] bool may_start() const noexcept { return state_ == State::empty || state_ == State::complete; }
     // True if the record is complete and has all values that `needs` names.
     [[nodiscard]] bool serves(const rasterizer::FragmentNeeds& needs) const noexcept;
-    // True if such values can be recorded: coordinates and facing cannot.
+    // True if such values can be recorded: coordinates, facing and secondary colours cannot.
     [[nodiscard]] static bool records(const rasterizer::FragmentNeeds& needs) noexcept {
-        return !needs.texcoord && !needs.facing && needs.units == 0;
+        return !needs.texcoord && !needs.facing && !needs.has_extras();
     }
     // Bytes per fragment with these values.
     [[nodiscard]] static std::uint64_t bytes_of(const rasterizer::FragmentNeeds& needs) noexcept;

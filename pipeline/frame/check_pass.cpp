@@ -64,7 +64,7 @@ void check_once_a_pixel(const PassState& state) {
                                     state.sample_mask == 0xff && state.selection.keeps == KeptFragments::everything),
             "a pass once a pixel tests depth alone, without a write");
     require(!state.once_a_pixel || (!state.needs.texcoord && !state.needs.facing && !state.needs.exact_code &&
-                                    !state.needs.reference && state.needs.units == 0),
+                                    !state.needs.reference && !state.needs.has_extras()),
             "the program of a pass once a pixel reads colour and depth");
 }
 

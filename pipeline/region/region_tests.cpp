@@ -175,7 +175,7 @@ bool Stages::moves_centroids(const PassState& state, const PreparedDraw& list) c
     return shared_.profile().centroid == CentroidSamples::passing && shared_.samples > 1 &&
            list.geometry.state.interpolation == rasterizer::Interpolation::centroid && state.depth.enabled &&
            !state.stencil.enabled && !state.replaces_depth && state.primitives.empty() && !state.needs.texcoord &&
-           !state.needs.facing && !state.needs.exact_code && state.needs.units == 0;
+           !state.needs.facing && !state.needs.exact_code && !state.needs.has_extras();
 }
 
 // The depth test of every sample comes first, without a write; nothing is counted, for each sample's own stages test

@@ -43,6 +43,8 @@ struct alignas(64) FragmentBatch {
     Lanes<double> reference_z;                                    // before quantization, not clamped, in the buffer's
                                                                   // own units
     std::array<std::array<Lanes<float>, 4>, texture_units> unit;  // s t r q of each texture unit, not divided by q
+    Lanes<float> fog;                                             // the fog coordinate
+    std::array<Lanes<float>, 4> secondary;                        // r g b a of the secondary colour, interpolated
 };
 
 // The arrays of a batch that a pass uses; the others have unspecified contents. pixel, x, y and primitive are always
@@ -51,12 +53,21 @@ struct FragmentNeeds {
     bool shader_z = true, code = true, exact_code = false, color = true, texcoord = false, facing = false;
     bool reference = false;  // reference_code and reference_z; requires code
     UnitMask units = 0;
+    bool fog = false, secondary = false;
+    // Values of VertexExtras: they are interpolated beside colour and texture coordinates, and are not recorded.
+    [[nodiscard]] constexpr bool has_extras() const noexcept { return units != 0 || fog || secondary; }
     friend bool operator==(const FragmentNeeds&, const FragmentNeeds&) = default;
     [[nodiscard]] friend constexpr FragmentNeeds operator|(FragmentNeeds a, FragmentNeeds b) noexcept {
-        return {a.shader_z || b.shader_z,     a.code || b.code,
-                a.exact_code || b.exact_code, a.color || b.color,
-                a.texcoord || b.texcoord,     a.facing || b.facing,
-                a.reference || b.reference,   static_cast<UnitMask>(a.units | b.units)};
+        return {a.shader_z || b.shader_z,
+                a.code || b.code,
+                a.exact_code || b.exact_code,
+                a.color || b.color,
+                a.texcoord || b.texcoord,
+                a.facing || b.facing,
+                a.reference || b.reference,
+                static_cast<UnitMask>(a.units | b.units),
+                a.fog || b.fog,
+                a.secondary || b.secondary};
     }
 };
 

@@ -36,9 +36,12 @@ void check_numbers(const Requirements& soup, const char* list, std::span<const s
     soup.below({list, static_cast<std::size_t>(wrong - numbers.begin())}, *wrong, limit);
 }
 
-// r and q take two values of a vertex and the texture units sixteen; there may be other values between them.
+// r and q take two values of a vertex, fog one, secondary colours eight and the texture units sixteen; there may be
+// other values before those of the units.
 void check_extras(const Requirements& soup, const VertexExtras& extras, std::size_t vertices) {
-    const std::size_t needed = (extras.has_rq ? 2 : 0) + (extras.has_units ? 4 * texture_units : 0);
+    const std::size_t needed = (extras.has_rq ? 2 : 0) + (extras.has_fog ? 1 : 0) +
+                               (extras.has_secondary ? 2 * color_channels : 0) +
+                               (extras.has_units ? 4 * texture_units : 0);
     soup.within("extras.stride", extras.stride, needed, max_extras);
     if (extras.values.size() != extras.stride * vertices)
         soup.fail(FieldName{"extras.values"},

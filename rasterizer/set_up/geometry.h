@@ -26,15 +26,21 @@ struct ClipVertex {
 };
 
 // Additional vertex values, interpolated with perspective like the colours: `stride` values per vertex, none if it is
-// 0.
-inline constexpr std::size_t max_extras = 18;
+// 0. They are in the order of the fields below.
+inline constexpr std::size_t max_extras = 2 + 1 + 2 * color_channels + 4 * texture_units;
 struct VertexExtras {
     std::size_t stride = 0;
     bool has_rq = false;  // the first two are r and q, whose quotient is the depth of perspective_rq and depth_replace,
                           // r in units of vertex z (rules.window_z)
-    bool has_units = false;  // the last sixteen are s, t, r, q of each texture unit
+    bool has_fog = false;        // one is the fog coordinate
+    bool has_secondary = false;  // eight are the secondary colours of front and back faces
+    bool has_units = false;      // the last sixteen are s, t, r, q of each texture unit
     std::vector<float> values;
     [[nodiscard]] const float* of(std::size_t vertex) const noexcept { return &values[vertex * stride]; }
+    [[nodiscard]] std::size_t fog_place() const noexcept { return has_rq ? 2 : 0; }
+    [[nodiscard]] const float* secondary_of(std::size_t vertex, bool is_front) const noexcept {
+        return of(vertex) + fog_place() + (has_fog ? 1 : 0) + (is_front ? 0 : color_channels);
+    }
     [[nodiscard]] const float* units_of(std::size_t vertex) const noexcept {
         return &values[vertex * stride + stride - 4 * texture_units];
     }

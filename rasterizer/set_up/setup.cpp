@@ -80,8 +80,13 @@ TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules,
       marks_(vertices.size()) {}
 
 bool TriangleSetup::extras_finite(const float* extras, float inverse_w) const noexcept {
+    // NV2A defines the fog of an infinite coordinate and of NaN (pipeline/reference/fog-and-lighting.md 2.4).
+    const auto may_be_infinite = [&](std::size_t e) {
+        return extras_.has_fog && e == extras_.fog_place() &&
+               rules_.interpolation.texture_coordinates == CoordinateRule::cut_weights;
+    };
     for (std::size_t e = 0; e < extras_.stride; ++e)
-        if (!products_finite(std::array{extras[e]}, inverse_w)) return false;
+        if (!products_finite(std::array{extras[e]}, inverse_w) && !may_be_infinite(e)) return false;
     return true;
 }
 

@@ -45,7 +45,8 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
             PlaneAttributes{depth_.kernels, depth_.chip_kernels, needs.color, needs.texcoord});
     else if (has_attributes)
         attributes_.emplace<SteppedAttributes>(SteppedAttributes{depth_.kernels, needs.color, needs.texcoord});
-    if (needs.units != 0) units_.emplace(UnitValues{depth_.kernels, depth_.chip_kernels, needs.units});
+    if (needs.has_extras())
+        units_.emplace(UnitValues{depth_.kernels, depth_.chip_kernels, needs.units, needs.fog, needs.secondary});
 }
 
 // Depth comes first: it may remove fragments.

@@ -82,6 +82,8 @@ PixelShading::Point PixelShading::point_at(SamplePoint point, const DepthRequest
     one.rules.z_clip = ZClip::per_primitive;
     one.extras.stride = geometry_.extras.stride;
     one.extras.has_rq = geometry_.extras.has_rq;
+    one.extras.has_fog = geometry_.extras.has_fog;
+    one.extras.has_secondary = geometry_.extras.has_secondary;
     one.extras.has_units = geometry_.extras.has_units;
     one.triangles.resize(1);
     one.offset_z.resize(geometry_.offset_z.empty() ? 0 : 1);
@@ -163,6 +165,8 @@ void PixelShading::copy_attributes(const FragmentBatch& from, std::size_t i, Fra
     for (std::size_t u = 0; needs_.units != 0 && u < to.unit.size(); ++u)
         for (std::size_t c = 0; c < 4; ++c)
             if (names(needs_.units, u, c)) to.unit[u][c][k] = from.unit[u][c][i];
+    if (needs_.fog) to.fog[k] = from.fog[i];
+    for (std::size_t c = 0; needs_.secondary && c < to.secondary.size(); ++c) to.secondary[c][k] = from.secondary[c][i];
 }
 
 int PixelShading::fill_at_centroids(std::uint32_t index, int first, FragmentBatch& batch) {

@@ -26,7 +26,7 @@ class PixelShading {
     // True if values that are needed are evaluated apart from the sample.
     [[nodiscard]] static bool is_used(Interpolation at, const FragmentNeeds& needs) noexcept {
         return at != Interpolation::sample &&
-               (needs.shader_z || needs.color || needs.texcoord || needs.reference || needs.units != 0);
+               (needs.shader_z || needs.color || needs.texcoord || needs.reference || needs.has_extras());
     }
 
     // What the sample itself has of these needs.

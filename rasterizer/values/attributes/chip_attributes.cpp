@@ -51,19 +51,17 @@ using Corners3 = std::array<float, 3>;
 
 }  // namespace
 
-void fill_chip_colors(const ChipKernels* kernels, const TriangleFragments& f, const TriangleLanes& lanes) noexcept {
+void fill_chip_colors(const ChipKernels* kernels, const TriangleFragments& f, const TriangleLanes& lanes,
+                      const ChipColor& color) noexcept {
     const DrawnTriangle& triangle = f.triangle;
     const RasterRules& rules = triangle.geometry.rules;
     const Corners3 inverse_w = inverse_w_of(triangle);
     const InterpolationHypothesis& hypothesis = rules.interpolation;
     ColorLanes colors;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const ClipVertex& v = triangle.geometry.vertices[triangle.record.vertex[i]];
-        const std::array<float, 4>& color = triangle.record.front_facing ? v.front : v.back;
+    colors.out = color.out;
+    for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t c = 0; c < color_channels; ++c)
-            colors.codes[c][i] = to_color_code(color[c], hypothesis.vertex_color_bits);
-    }
-    for (std::size_t c = 0; c < color_channels; ++c) colors.out[c] = &f.batch.color[c][f.first];
+            colors.codes[c][i] = to_color_code(color.corner[i][c], hypothesis.vertex_color_bits);
     const bool is_known = is_affine(inverse_w) || hypothesis.perspective_color == PerspectiveColor::cut_products;
     if (kernels != nullptr && is_known && ChipTriangle::suits(triangle.weights, triangle.record, rules.hypothesis)) {
         if (fill_constant_channels(colors, lanes.count)) return;

@@ -20,9 +20,15 @@ struct TruncatedCoordinate {
     float* out;
 };
 
+// A colour: r g b a of the three corners, and the output array of each channel.
+struct ChipColor {
+    std::array<const float*, 3> corner;
+    std::array<float*, color_channels> out;
+};
+
 // `kernels` is null if the definitions run.
-void fill_chip_colors(const ChipKernels* kernels, const TriangleFragments& fragments,
-                      const TriangleLanes& lanes) noexcept;
+void fill_chip_colors(const ChipKernels* kernels, const TriangleFragments& fragments, const TriangleLanes& lanes,
+                      const ChipColor& color) noexcept;
 void fill_chip_coordinates(const ChipKernels* kernels, const DrawnTriangle& triangle, const TriangleLanes& lanes,
                            std::span<const TruncatedCoordinate> coordinates) noexcept;
 

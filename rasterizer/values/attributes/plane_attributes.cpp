@@ -20,6 +20,15 @@ using CornerVertices = std::array<const ClipVertex*, 3>;
     return value;
 }
 
+void fill_weighted(const ChipKernels* chip_kernels, const TriangleFragments& f, const CornerVertices& v,
+                   const TriangleLanes& lanes) noexcept {
+    ChipColor color;
+    for (std::size_t i = 0; i < 3; ++i)
+        color.corner[i] = f.triangle.record.front_facing ? v[i]->front.data() : v[i]->back.data();
+    for (std::size_t c = 0; c < color_channels; ++c) color.out[c] = &f.batch.color[c][f.first];
+    fill_chip_colors(chip_kernels, f, lanes, color);
+}
+
 void fill_truncated(const ChipKernels* chip_kernels, const TriangleFragments& f, const CornerVertices& v,
                     const TriangleLanes& lanes) noexcept {
     std::array<TruncatedCoordinate, 2> coordinates;
@@ -60,7 +69,7 @@ int PlaneAttributes::fill(const TriangleFragments& f) const {
     }
     const TriangleEdges edges = f.triangle.edges();
     const TriangleLanes lanes = f.lanes(edges);
-    if (has_weighted_color) fill_chip_colors(chip_kernels, f, lanes);
+    if (has_weighted_color) fill_weighted(chip_kernels, f, v, lanes);
     if (truncated) fill_truncated(chip_kernels, f, v, lanes);
     return fill_planes(kernels, planes, lanes);
 }

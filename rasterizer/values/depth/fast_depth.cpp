@@ -19,7 +19,7 @@ namespace {
     const bool truncates_all = h.texture_coordinates == CoordinateRule::cut_weights &&
                                h.perspective_coordinates == PerspectiveCoordinates::cut_products;
     return (needs.color && rules.color != ColorInterpolation::weights_8bit) ||
-           ((needs.texcoord || needs.units != 0) && !truncates_all);
+           ((needs.texcoord || needs.has_extras()) && !truncates_all);
 }
 
 [[nodiscard]] bool has_wide_edges(const TriangleFragments& f) noexcept {
@@ -102,11 +102,11 @@ FastDepth select_fast_depth(const DepthConstants& constants, const Geometry& geo
     const bool rejects = depth.path == DepthPath::depth_replace && !geometry.state.depth_clamp;
     if (scale.chip.clips || needs.reference || rejects || (needs.code && !is_float32)) return {};
     if (is_stepped) {
-        if (needs.units != 0) return {};  // their planes take weights
+        if (needs.has_extras()) return {};  // their planes take weights
         return SteppedDepth{needs.shader_z, needs.code};
     }
     if (constants.kernels.depth == nullptr || (needs.code && !has_vector_codes(scale.to_code))) return {};
-    return KernelDepth{needs.shader_z, needs.code, needs.color || needs.texcoord || needs.units != 0};
+    return KernelDepth{needs.shader_z, needs.code, needs.color || needs.texcoord || needs.has_extras()};
 }
 
 }  // namespace strata::rasterizer

@@ -89,9 +89,9 @@ TEST_CASE("a soup with numbers out of range is rejected with the first of them")
               s.order = {3, 0, 4};
           }) == "triangle soup: order[2]: expected less than 4, found 4");
     CHECK(soup([](TriangleSoup& s) { s.extras = {.stride = 1, .has_rq = true, .values = {}}; }) ==
-          "triangle soup: extras.stride: expected 2 to 18, found 1");
-    CHECK(soup([](TriangleSoup& s) { s.extras = {.stride = 19, .values = {}}; }) ==
-          "triangle soup: extras.stride: expected 0 to 18, found 19");
+          "triangle soup: extras.stride: expected 2 to 27, found 1");
+    CHECK(soup([](TriangleSoup& s) { s.extras = {.stride = 28, .values = {}}; }) ==
+          "triangle soup: extras.stride: expected 0 to 27, found 28");
     CHECK(soup([](TriangleSoup& s) {
               s.extras = {.stride = 2, .has_rq = true, .values = {1, 2, 3}};
           }) == "triangle soup: extras.values: expected 2 numbers for each of 12 vertices, found 3");

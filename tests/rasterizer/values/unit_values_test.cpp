@@ -137,3 +137,54 @@ TEST_CASE("fewer bits of the interpolants affect texture units under any rule fo
             CHECK(far == 0);
         }
 }
+
+// The fog coordinate has the values of unit 0's s, and the secondary colour those of the colour.
+TEST_CASE("a fog coordinate is interpolated like a texture coordinate, and a secondary colour like the colour") {
+    Random random{502};
+    RasterRules chip;
+    chip.color = ColorInterpolation::weights_8bit;
+    chip.interpolation = {.vertex_color_bits = 14,
+                          .perspective_color = PerspectiveColor::cut_products,
+                          .texture_coordinates = CoordinateRule::cut_weights,
+                          .perspective_coordinates = PerspectiveCoordinates::cut_products};
+    for (const RasterRules& rules : {RasterRules{}, chip}) {
+        RasterState state;
+        state.viewport = {0, 0, 32, 32};
+        TriangleSoup soup = soup_of(random, 12, true);
+        const VertexExtras given = soup.extras;
+        soup.extras = {.stride = given.stride + 9,
+                       .has_rq = true,
+                       .has_fog = true,
+                       .has_secondary = true,
+                       .has_units = true,
+                       .values = {}};
+        for (std::size_t i = 0; i < soup.vertices.size(); ++i) {
+            ClipVertex& v = soup.vertices[i];
+            for (std::size_t c = 0; c < color_channels; ++c) {
+                v.front[c] = random_float(random, 0, 1);
+                v.back[c] = random_float(random, 0, 1);
+            }
+            auto& values = soup.extras.values;
+            const float* const own = given.of(i);
+            values.insert(values.end(), own, own + 2);
+            values.push_back(given.units_of(i)[0]);
+            values.insert(values.end(), v.front.begin(), v.front.end());
+            values.insert(values.end(), v.back.begin(), v.back.end());
+            values.insert(values.end(), given.units_of(i), given.units_of(i) + 4 * texture_units);
+        }
+        const Geometry g = set_up(std::move(soup), state, rules, 1);
+        constexpr FragmentNeeds needs{.shader_z = false, .code = false, .units = 1, .fog = true, .secondary = true};
+        std::size_t wrong = 0, fragments = 0;
+        TileRasterizer rasterizer{state.viewport};
+        auto sink = [&](FragmentBatch& batch) {
+            for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i, ++fragments) {
+                wrong += batch.fog[i] != batch.unit[0][0][i] ? 1 : 0;
+                for (std::size_t c = 0; c < color_channels; ++c)
+                    wrong += batch.secondary[c][i] != batch.color[c][i] ? 1 : 0;
+            }
+        };
+        rasterizer.draw(g, g.all_triangles, {}, needs, BatchSink{sink});
+        CHECK(fragments > 100);
+        CHECK(wrong == 0);
+    }
+}
