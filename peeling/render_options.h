@@ -14,6 +14,7 @@
 #include "pipeline/frame/run_settings.h"
 #include "pipeline/stages/depth_compare.h"
 #include "pipeline/vertices/draw_list.h"
+#include "pipeline/vertices/fog.h"
 #include "rasterizer/base/simd.h"
 #include "rasterizer/rules/raster_state.h"
 
@@ -53,6 +54,7 @@ struct RenderOptions {
     std::optional<pipeline::Format> back_format{};    // of dual's back and of its layers; default: color_format
     std::optional<float> alpha{};           // draws all materials as transparent, with their own alpha times this
     pipeline::Rgba background{0, 0, 0, 1};  // premultiplied, like images over an alpha below 1
+    std::optional<pipeline::Fog> fog{};     // of all surfaces, not of the background
     pipeline::Termination termination{};
     pipeline::Formulation formulation = pipeline::Formulation::resolved;
     Sort sort{};                        // the order in which triangles are submitted

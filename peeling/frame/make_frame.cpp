@@ -19,6 +19,7 @@ void set_lists(Frame& f, const Algorithm& algorithm, FrameSetup& setup) {
     f.second = lists.second();
     lists.bin(tile_size_of(setup.options, algorithm));
     f.shadow = setup.light ? &setup.light->stage : nullptr;
+    f.fog = setup.options.fog ? &*setup.options.fog : nullptr;
     f.blank_tiles_are_equal = true;  // no program here reads x or y
 }
 

@@ -86,6 +86,7 @@ PrepareOptions PreparedLists::prepare_options(Selection selection) const {
                            .depth_quotient = takes_quotient(s_.depth),
                            .tile_size = 0,
                            .threads = s_.options.threads,
+                           .fog = s_.options.fog,
                            .alteration = s_.options.vertex_alteration,
                            .samples = samples()};
     if (s_.light == nullptr) return options;

@@ -35,6 +35,7 @@ DeviceProfile geforce3() {
                                   .perspective_coordinates = PerspectiveCoordinates::cut_products}};
     p.alpha_test = AlphaTestPrecision::unorm8;
     p.texture_filter = TextureFilterPrecision::unorm8;
+    p.fog = FogRule::bytes;
     p.has_d16 = true;
     p.has_depth_clamp = true;
     p.has_signed_blend = true;

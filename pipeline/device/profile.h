@@ -35,6 +35,9 @@ enum class Depth24 : std::uint8_t { codes, binary32 };
 // or in binary32 (pipeline/reference/texturing.md 3). It also affects nearest lookups and pass-through coordinates
 // (devices.md 4).
 enum class TextureFilterPrecision : std::uint8_t { unorm8, single, code_lerps, code_lerps_fused, single_lerps };
+// How fog is computed: OpenGL's formulas in binary32, or NV2A's registers and tables of bytes (fog-and-lighting.md 1
+// and 2).
+enum class FogRule : std::uint8_t { single, bytes };
 // The corner of the image at which memory begins: upper_left as in Direct3D and under glClipControl(GL_UPPER_LEFT);
 // lower_left as OpenGL draws into framebuffer objects without that call. All rules apply in memory order (devices.md
 // 3.8); output images have the upper row first.
@@ -71,6 +74,7 @@ struct DeviceProfile {
     DenormalRule denormals = DenormalRule::flush;
     TextureFilterPrecision texture_filter = TextureFilterPrecision::single;
     Depth24 depth24 = Depth24::codes;
+    FogRule fog = FogRule::single;
 
     // Formats
     bool has_d16 = false, has_d24 = true, has_d32f = false;

@@ -20,18 +20,27 @@
 
 namespace strata::pipeline {
 
+// Adds what the colours of these materials are computed from.
+inline void add_needs_of_color(rasterizer::FragmentNeeds& needs, const MaterialNeeds& materials) noexcept {
+    if (!needs.color) return;
+    needs.texcoord |= materials.texcoord;
+    needs.units |= materials.shadow;
+    needs.fog |= materials.fog;
+}
+
 // The fragment arrays that a geometry pass over triangles of these materials must compute.
 [[nodiscard]] inline rasterizer::FragmentNeeds pass_needs(const PassState& state, const MaterialNeeds& materials,
                                                           Effects effects, DepthOutcome depth = DepthOutcome::open) {
     rasterizer::FragmentNeeds needs = state.needs;
-    if (effects == Effects::all)
-        return {true, true, needs.exact_code, true,
-                true, true, needs.reference,  static_cast<rasterizer::UnitMask>(needs.units | materials.shadow)};
+    if (effects == Effects::all) {
+        needs.shader_z = needs.code = needs.color = needs.texcoord = needs.facing = true;
+        add_needs_of_color(needs, materials);
+        return needs;
+    }
     needs.code |= needs.reference || (state.depth.enabled && depth == DepthOutcome::open) || state.depth_unit_count > 0;
     needs.facing |= state.stencil.enabled && state.stencil.two_sided;
     needs.color |= materials.color;
-    needs.texcoord |= materials.texcoord && needs.color;
-    if (needs.color) needs.units |= materials.shadow;
+    add_needs_of_color(needs, materials);
     return needs;
 }
 

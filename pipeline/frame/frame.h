@@ -21,6 +21,7 @@ struct Replay {
         0;  // bytes per fragment of a record: tiles are split until their fragments fit (tile_parts.h); 0: unknown
 };
 
+struct Fog;
 struct PreparedDraw;
 struct ShadowStage;
 
@@ -48,6 +49,7 @@ struct Frame {
                                           // tile's size but not on its position
     bool needs_frame = false;             // texture lookups may reach any pixel: always runs literally
     const ShadowStage* shadow = nullptr;  // for lists that receive a shadow (pipeline/textures/shadow_stage.h)
+    const Fog* fog = nullptr;             // for lists with fog (pipeline/vertices/fog.h)
     Replay replay;
     bool keep_layers = false;
     bool trace = false;

@@ -46,6 +46,10 @@ void require(bool holds, const char* what) {
 void check(const CombinerPortion& p, bool is_alpha) {
     for (const Input& input : {p.a, p.b, p.c, p.d})
         require(holds_value(input.source), "an input of a general stage names no register that it has");
+    for (const Input& input : {p.a, p.b, p.c, p.d})
+        require(input.source != Reg::fog || !(is_alpha ? input.component != CombinerComponent::blue
+                                                       : input.component == CombinerComponent::alpha),
+                "only the final stage reads the fog factor");
     for (const Reg r : {p.ab, p.cd, p.sum})
         require(r == Reg::discard || is_written(r), "an output names no writable register");
     const bool dots = p.ab_product == CombinerProduct::dot || p.cd_product == CombinerProduct::dot;
@@ -95,6 +99,14 @@ void CombinerUnit::load(Reg r, const ColorLanes* color, std::size_t count) {
             std::fill_n(at(r)[c].begin(), count, 0);
         else
             combiner_loops().load((*color)[c].data(), at(r)[c].data(), count);
+}
+
+void CombinerUnit::load_fog(const CombinerSources& sources, std::size_t count) {
+    load(Reg::fog, nullptr, count);
+    if (sources.fog_factor == nullptr) return;
+    for (std::size_t c = 0; c < 3; ++c)
+        std::fill_n(at(Reg::fog)[c].begin(), count, std::int32_t{to_unorm8(sources.fog[c])});
+    combiner_loops().load(sources.fog_factor->data(), at(Reg::fog)[3].data(), count);
 }
 
 void CombinerUnit::set_constants(const std::array<Rgba, 2>& constant, std::size_t count) {
@@ -168,6 +180,7 @@ void CombinerUnit::run(const CombinerSources& sources, ColorLanes& out, int coun
     load(Reg::secondary_color, sources.secondary, n);
     constexpr std::array textures{Reg::texture0, Reg::texture1, Reg::texture2, Reg::texture3};
     for (std::size_t u = 0; u < textures.size(); ++u) load(textures[u], sources.texture[u], n);
+    load_fog(sources, n);
     at(Reg::spare0)[3] = at(Reg::texture0)[3];
     for (const CombinerStage& stage : state_.stages) run_stage(stage, n);
     finish(out, n);

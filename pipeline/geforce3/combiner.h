@@ -19,7 +19,7 @@
 
 namespace strata::pipeline {
 
-// The registers that an input can name. The first eleven have their own value; the final stage computes the next two.
+// The registers that an input can name. The first twelve have their own value; the final stage computes the next two.
 enum class CombinerRegister : std::uint8_t {
     zero,
     constant_color0,
@@ -32,13 +32,15 @@ enum class CombinerRegister : std::uint8_t {
     texture3,
     spare0,
     spare1,
+    // The fog's colour; as alpha, which only the final stage reads, the fragment's fog factor.
+    fog,
     // Only for inputs A to D of the final stage.
     spare0_plus_secondary_color,
     e_times_f,
     // As an output: the result is discarded.
     discard
 };
-inline constexpr std::size_t combiner_registers = 11;  // number of registers that have a value
+inline constexpr std::size_t combiner_registers = 12;  // number of registers that have a value
 
 // The mapping of an input value e (combiners.md 2.1); results are in -255..255 again.
 enum class CombinerMapping : std::uint8_t {
@@ -120,8 +122,10 @@ struct Combiners {
 // The initial registers of the combiners: colours in [0,1], rounded to 8 bits when loaded.
 struct CombinerSources {
     const ColorLanes* primary = nullptr;
-    const ColorLanes* secondary = nullptr;       // null: 0
-    std::array<const ColorLanes*, 4> texture{};  // null: 0
+    const ColorLanes* secondary = nullptr;                 // null: 0
+    std::array<const ColorLanes*, 4> texture{};            // null: 0
+    Rgba fog{};                                            // its alpha is not used
+    const rasterizer::Lanes<float>* fog_factor = nullptr;  // null: colour and alpha of fog are 0
 };
 
 struct CombinerOperand;
@@ -142,6 +146,7 @@ class CombinerUnit {
     [[nodiscard]] const Register& value_of(CombinerRegister r) const noexcept;
     [[nodiscard]] CombinerOperand operand(const CombinerInput& input, bool is_alpha) const noexcept;
     void load(CombinerRegister r, const ColorLanes* color, std::size_t count);
+    void load_fog(const CombinerSources& sources, std::size_t count);
     void set_constants(const std::array<Rgba, 2>& constant, std::size_t count);
     void run_stage(const CombinerStage& stage, std::size_t count);
     void run_portion(const CombinerPortion& portion, bool is_alpha, std::size_t count);

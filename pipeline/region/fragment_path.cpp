@@ -4,6 +4,7 @@
 #include "pipeline/region/fragment_path.h"
 
 #include "pipeline/device/check.h"
+#include "pipeline/formats/unorm8.h"
 
 namespace strata::pipeline {
 namespace {
@@ -39,6 +40,7 @@ FragmentPathProgram::FragmentPathProgram(const Region& region, const FragmentPat
     : path_{path},
       ops_{consistent_operations(path.shader)},
       pixels_{static_cast<std::uint32_t>(region.rect().area())},
+      has_secondary_{region.frame().transparent->geometry.extras.has_secondary},
       combiners_{path.combiners},
       results_{std::make_unique<ShaderResults>()} {
     // Depth replace is a stage of NV_texture_shader: a profile without it has no texture shader at all
@@ -54,6 +56,8 @@ FragmentPathProgram::FragmentPathProgram(const Region& region, const FragmentPat
 void FragmentPathProgram::apply(PassState& state) const {
     state.needs.color = true;
     state.needs.units |= coordinates_of(path_.shader, ops_);
+    state.needs.fog |= path_.fog.has_value();
+    state.needs.secondary |= has_secondary_;
     state.replaces_depth = replaces_depth(ops_);
     for (std::size_t u = 0; u < ops_.size(); ++u)
         state.textures[u] = ops_[u] == ShaderOp::none ? Target{} : path_.shader[u].texture.depth;
@@ -72,6 +76,14 @@ void FragmentPathProgram::operator()(const FragmentBatch& in, const Loads&, Outp
         out.replaces_depth = true;
     }
     CombinerSources sources{.primary = &in.color};
+    if (has_secondary_) sources.secondary = &in.secondary;
+    rasterizer::Lanes<float> factor;
+    if (path_.fog) {
+        for (std::size_t i = 0; i < count; ++i)
+            factor[i] = unorm8_value(static_cast<std::uint32_t>(fog_factor(*path_.fog, in.fog[i])));
+        sources.fog = path_.fog->color;
+        sources.fog_factor = &factor;
+    }
     for (std::size_t u = 0; u < ops_.size(); ++u) sources.texture[u] = &results_->stage[u].rgba;
     combiners_.run(sources, out.color[0], in.count);
 }

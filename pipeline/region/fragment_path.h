@@ -8,19 +8,23 @@
 // Tests    tests/pipeline/region/fragment_path_test.cpp, tests/peeling/listing2_test.cpp
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "pipeline/geforce3/combiner.h"
 #include "pipeline/geforce3/texture_shader.h"
 #include "pipeline/region/region.h"
+#include "pipeline/vertices/fog_unit.h"
 
 namespace strata::pipeline {
 
 // GeForce3's texture shader and register combiners, programmed for one pass. The stages and textures that it points to
-// must outlive the pass. Without a shader every stage is NONE; default combiners give black, alpha 0.
+// must outlive the pass. Without a shader every stage is NONE; default combiners give black, alpha 0. With fog the
+// vertices have what fog_unit.h interpolates; a list with secondary colours provides that register.
 struct FragmentPath {
     ShaderStages shader{};
     Combiners combiners;
+    std::optional<FogRegisters> fog{};
 };
 
 class FragmentPathProgram {
@@ -38,6 +42,7 @@ class FragmentPathProgram {
     FragmentPath path_;
     ShaderOps ops_;
     std::uint32_t pixels_;
+    bool has_secondary_;
     std::vector<ShaderDevice> devices_;  // by sample, whose depth targets it reads
     CombinerUnit combiners_;
     std::unique_ptr<ShaderResults> results_;

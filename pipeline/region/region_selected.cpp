@@ -75,6 +75,7 @@ bool FragmentSource::find_fragments(const PassState& state, const PreparedDraw& 
     FragmentNeeds kept = pass_needs(state, needs_of_tile(list), shared_.frame.effects);
     kept.texcoord = state.needs.texcoord;
     kept.units = state.needs.units;
+    kept.fog = state.needs.fog;
     if (!record(list, kept) || !sort_for(state)) return false;
     const bool has_order = selection.keeps == KeptFragments::ends || selection.keeps == KeptFragments::group ||
                            selection.outside == Outside::writes_alike;

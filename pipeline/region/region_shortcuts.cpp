@@ -64,10 +64,8 @@ void RegionShortcuts::rasterize_band(FragmentNeeds needs, const rasterizer::Rect
     const PreparedDraw& list = *region_.frame().transparent;
     const MaterialNeeds& materials = region_.source_.needs_of_tile(list);
     needs.color |= materials.color;  // MASK decides which fragments exist
-    needs.texcoord |= materials.texcoord && needs.color;
-    const bool takes_shadow = needs.color && list.needs.shadow != 0;
-    region_.stages_.set_material(needs.texcoord, takes_shadow);
-    if (takes_shadow) needs.units |= list.needs.shadow;
+    add_needs_of_color(needs, materials);
+    region_.stages_.set_material(needs.color ? materials : MaterialNeeds{});
     rasterizer::TileRasterizer rows{band};
     auto triangles = region_.source_.triangles_of(list, sample);
     for (std::size_t part = 64; goes_on && !triangles.empty(); part *= 2) {

@@ -52,7 +52,7 @@ std::span<const std::uint32_t> FragmentSource::triangles_of(const PreparedDraw& 
 // Sample by sample, each in submission order: a batch has elements of one sample.
 void FragmentSource::rasterize(const PreparedDraw& list, FragmentNeeds needs,
                                std::span<const PrimitiveRange> primitives, rasterizer::BatchSink given) {
-    stages_.set_material(needs.color && needs_of_tile(list).texcoord, needs.color && list.needs.shadow != 0);
+    stages_.set_material(needs.color ? needs_of_tile(list) : MaterialNeeds{});
     auto checked = [&](FragmentBatch& batch) {
         require_range(batch);
         given(batch);
@@ -92,7 +92,7 @@ void FragmentSource::for_each_pixel_batch(const PreparedDraw& list, const PassSt
         taken.rasterizes = true;
         if (taken.why_rasterized == nullptr) taken.why_rasterized = "a pass looks at all samples of a pixel together";
     }
-    stages_.set_material(needs.color && needs_of_tile(list).texcoord, needs.color && list.needs.shadow != 0);
+    stages_.set_material(needs.color ? needs_of_tile(list) : MaterialNeeds{});
     if (joined_ == nullptr) joined_ = std::make_unique<PixelFragments>(shared_.rect());
     const auto shade = [&](FragmentBatch& batch, bool again) -> const Lanes<std::uint32_t>& {
         std::optional<UncountedWork> same;
@@ -155,8 +155,7 @@ bool FragmentSource::record(const PreparedDraw& list, const FragmentNeeds& needs
     }
     FragmentNeeds drawn = kept;
     drawn.color |= materials.color;
-    drawn.texcoord |= materials.texcoord && drawn.color;
-    if (drawn.color) drawn.units |= materials.shadow;
+    add_needs_of_color(drawn, materials);
     auto sink = [&](FragmentBatch& batch) {
         Outputs& out = stages_.start_batch(batch);
         stages_.shade(list, batch, out);
@@ -232,8 +231,9 @@ void FragmentSource::for_each_batch(const PreparedDraw& list, const PassState& s
                                                       needs.color && materials.texcoord, &list == shared_.frame.opaque,
                                                       shared_.statistics.iterations});
     FragmentNeeds looked_at = needs;
-    looked_at.texcoord = state.needs.texcoord;  // for the program; colours are recorded with their texture and shadow
+    looked_at.texcoord = state.needs.texcoord;  // for the program; colours are recorded with texture, shadow and fog
     looked_at.units = state.needs.units;
+    looked_at.fog = state.needs.fog;
     if (may_record(list) && state.primitives.empty() && record(list, looked_at)) {
         shared_.statistics.taken.reads_record = true;
         visit_all(looked_at, sink);

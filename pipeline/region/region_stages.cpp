@@ -140,20 +140,21 @@ Outputs& Stages::start_batch(const FragmentBatch& batch) {
     return out;
 }
 
-// Texture, shadow, MASK (fragment-stages.md 2). MASK compares the material's own alpha, so the alpha scale is applied
-// after it; its precision is that of the frame's colour format, whatever the pass's targets are.
+// Texture, shadow, fog, MASK (fragment-stages.md 2). MASK compares the material's own alpha, so the alpha scale is
+// applied after it; its precision is that of the frame's colour format, whatever the pass's targets are.
 void Stages::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out) {
     shared_.statistics.fragments_drawn += static_cast<std::uint64_t>(batch.count);
     shared_.count({.fragments_rasterized = static_cast<std::uint64_t>(batch.count)});
     const MaterialStage& material = list.materials[batch.material];
-    if (material.texture != nullptr && samples_textures_) {
+    if (material.texture != nullptr && shaded_.texcoord) {
         sample(*material.texture, shared_.profile().texture_filter, batch.texcoord[0], batch.texcoord[1],
                shared_.scratch.texel, batch.count);
         for (std::size_t c = 0; c < 4; ++c)
             for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
                 batch.color[c][i] *= shared_.scratch.texel[c][i];
     }
-    if (takes_shadow_) cast_shadow(*shared_.frame.shadow, shared_.profile(), batch, shared_.scratch.texel);
+    if (shaded_.shadow != 0) cast_shadow(*shared_.frame.shadow, shared_.profile(), batch, shared_.scratch.texel);
+    if (shaded_.fog) mix_fog(*shared_.frame.fog, shared_.profile().fog, batch);
     if (!material.mask.enabled) return;
     const bool eight_bit = is_eight_bit_alpha(shared_.profile().alpha_test, info(shared_.frame.color_format).type);
     alpha_test(material.mask, eight_bit, batch.color[3].data(), out.alive.data(), batch.count);

@@ -32,12 +32,9 @@ class Stages {
 
     void begin_pass(const PassState& state, PassKind kind);
     void begin_query() noexcept { kind_ = PassKind::full_screen; }  // for Region::trace_pixels, which is not a pass
-    // Sets what is known about the depth test of this pass, and whether its colours use textures and shadow.
+    // Sets what is known about the depth test of this pass, and what the colours that it looks at use.
     void set_depth(DepthOutcome outcome) noexcept { depth_ = outcome; }
-    void set_material(bool samples_textures, bool takes_shadow) noexcept {
-        samples_textures_ = samples_textures;
-        takes_shadow_ = takes_shadow;
-    }
+    void set_material(const MaterialNeeds& shaded) noexcept { shaded_ = shaded; }
     [[nodiscard]] int samples() const noexcept { return samples_; }  // of the pass's targets
 
     // Called around the batches of a pass whose blends are stored in binary32 (tile_cache.h); no effect for other
@@ -101,7 +98,7 @@ class Stages {
     DepthOutcome depth_ = DepthOutcome::open;  // for the current pass
     PassKind kind_ = PassKind::geometry;
     int samples_ = 1;
-    bool samples_textures_ = false, takes_shadow_ = false;
+    MaterialNeeds shaded_;
     std::uint64_t tallied_ = 0;
     std::vector<bool> has_saturated_;  // elements whose stencil has reached its limit; empty until one does
 };

@@ -121,23 +121,33 @@ void write_all(const SoupVertices& vertices, int threads, rasterizer::TriangleSo
     });
 }
 
-// The vertex values that the options request in addition to position and colour, in this order: r and q, then texture
-// units.
+// The vertex values that the options request in addition to position and colour, in this order: r and q, fog, then
+// texture units.
 rasterizer::VertexExtras vertex_extras(const DrawList& list, const View& view, const rasterizer::RasterState& state,
-                                       const rasterizer::RasterRules& rules, const PrepareOptions& options) {
+                                       const rasterizer::RasterRules& rules, FogRule fog,
+                                       const PrepareOptions& options) {
     rasterizer::VertexExtras extras;
     extras.has_rq = options.depth_quotient;
+    extras.has_fog = options.fog.has_value();
     extras.has_units = std::ranges::any_of(options.units, &CoordinateUnit::enabled);
-    extras.stride = (extras.has_rq ? 2u : 0u) + (extras.has_units ? 4 * rasterizer::texture_units : 0u);
+    extras.stride = (extras.has_rq ? 2u : 0u) + (extras.has_fog ? 1u : 0u) +
+                    (extras.has_units ? 4 * rasterizer::texture_units : 0u);
     for (const Instance& instance : list.instances) {
         if (extras.stride == 0 || !is_selected(list.materials[instance.material], options.selection)) continue;
         const Mesh& mesh = list.meshes[instance.mesh];
+        const Matrix to_eye = product(view.view, instance.model);
+        const VertexTransform eye{view.vertex_path, to_eye, identity, to_eye};
         const VertexTransform rows = quotient_rows(view, instance.model, state, rules);
         const VertexCoordinates coordinates{options.units, view, instance.model};
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
             const std::array<float, 4> rq =
                 mesh.w.empty() ? rows(mesh.positions[i]) : rows(mesh.positions[i], mesh.w[i]);
             if (extras.has_rq) extras.values.insert(extras.values.end(), {rq[2], rq[3]});
+            if (extras.has_fog) {
+                const std::array<float, 4> e =
+                    mesh.w.empty() ? eye(mesh.positions[i]) : eye(mesh.positions[i], mesh.w[i]);
+                extras.values.push_back(vertex_fog(*options.fog, fog, std::fabs(e[2])));
+            }
             if (!extras.has_units) continue;
             for (const auto& unit :
                  coordinates.at(mesh.positions[i], mesh.texcoords.empty() ? Vec2{} : mesh.texcoords[i]))
@@ -236,7 +246,7 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     soup.order = std::move(order.triangles);
     rasterizer::RasterRules rules = profile.raster;
     if (view.vertex_path == VertexPath::nv20) rules.w_divide = rasterizer::WDivide::nv20;
-    soup.extras = vertex_extras(list, view, state, rules, options);
+    soup.extras = vertex_extras(list, view, state, rules, profile.fog, options);
     rasterizer::RasterState scaled = state;
     scaled.w_scale = w_scale_of(view, state);
     rasterizer::VertexSource source;
@@ -257,6 +267,7 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
         }
     }
     if (options.receives_shadow) prepared.needs.shadow = shadow_coordinates;
+    prepared.needs.fog = options.fog.has_value();
     for (const Material& material : list.materials) {
         prepared.materials.push_back(material_stage(list, material, options.alpha_scale));
         if (!is_selected(material, options.selection)) continue;
@@ -279,7 +290,7 @@ void bin_triangles(PreparedDraw& list, int tile_size, int threads) {
 
 // Stops as soon as all needs of the list are found.
 MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles, std::size_t sample) {
-    MaterialNeeds needs{.shadow = list.needs.shadow};
+    MaterialNeeds needs{.shadow = list.needs.shadow, .fog = list.needs.fog};
     for (std::size_t i = 0; i < triangles.size() && needs != list.needs; ++i) {
         const MaterialStage& material = list.materials[list.of_sample(sample).triangles[triangles[i]].material];
         needs.texcoord |= material.texture != nullptr;

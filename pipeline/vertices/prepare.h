@@ -16,6 +16,7 @@
 #include "pipeline/device/profile.h"
 #include "pipeline/device/state.h"
 #include "pipeline/vertices/draw_list.h"
+#include "pipeline/vertices/fog.h"
 #include "pipeline/vertices/primitive_range.h"
 #include "pipeline/vertices/texgen.h"
 #include "rasterizer/set_up/geometry.h"
@@ -40,10 +41,13 @@ struct MaterialNeeds {
     bool color = false;
     // The coordinates that the shadow lookup of every fragment's colour reads.
     rasterizer::UnitMask shadow = 0;
+    // Every fragment's colour is mixed with fog.
+    bool fog = false;
     MaterialNeeds& operator|=(const MaterialNeeds& other) noexcept {
         texcoord |= other.texcoord;
         color |= other.color;
         shadow |= other.shadow;
+        fog |= other.fog;
         return *this;
     }
     friend bool operator==(const MaterialNeeds&, const MaterialNeeds&) = default;
@@ -121,6 +125,8 @@ struct PrepareOptions {
     CoordinateUnits units{};
     // Multiply every colour by the comparison of shadow_stage.h.
     bool receives_shadow = false;
+    // Mix every colour with fog.
+    std::optional<Fog> fog{};
     // The list has been checked (check_list.h) and has not changed since.
     bool is_checked = false;
     // Null: none.

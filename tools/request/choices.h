@@ -4,6 +4,7 @@
 #include "pipeline/formats/resolve.h"
 #include "pipeline/frame/run_settings.h"
 #include "pipeline/vertices/draw_list.h"
+#include "pipeline/vertices/fog.h"
 #include "rasterizer/base/simd.h"
 #include "tools/request/words.h"
 
@@ -52,6 +53,9 @@ inline const std::vector<Choice<pipeline::Formulation>> formulations{{"resolved"
 
 inline const std::vector<Choice<Simd>> simds{
     {"scalar", Simd::scalar}, {"avx2", Simd::avx2}, {"avx512", Simd::avx512}, {"best", Simd::best}};
+
+inline const std::vector<Choice<pipeline::FogMode>> fog_modes{
+    {"linear", pipeline::FogMode::linear}, {"exp", pipeline::FogMode::exp}, {"exp2", pipeline::FogMode::exp2}};
 
 inline const std::vector<Choice<pipeline::Effects>> effects{{"needed", pipeline::Effects::needed},
                                                             {"all", pipeline::Effects::all}};

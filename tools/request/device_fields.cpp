@@ -112,6 +112,36 @@ std::string depth_range_text(const PictureRequest& request) {
     return fmt::format("{},{}", request.render.raster.depth_near, request.render.raster.depth_far);
 }
 
+// MODE,START,END or MODE,DENSITY, and the colour.
+std::optional<pipeline::Fog> to_fog(std::string_view text) {
+    const std::vector<std::string> parts = split(text, ',');
+    pipeline::Fog fog;
+    const auto mode = to_choice(fog_modes, parts[0]);
+    if (!mode) return std::nullopt;
+    fog.mode = *mode;
+    const std::size_t distances = fog.mode == pipeline::FogMode::linear ? 2 : 1;
+    std::vector<float> values;
+    for (std::size_t k = 1; k < parts.size(); ++k) {
+        const auto value = to_number<float>(parts[k]);
+        if (!value) return std::nullopt;
+        values.push_back(*value);
+    }
+    if (values.size() != distances && values.size() != distances + 3) return std::nullopt;
+    if (distances == 2) fog.start = values[0], fog.end = values[1];
+    if (distances == 1) fog.density = values[0];
+    for (std::size_t c = 0; c + distances < values.size(); ++c) fog.color[c] = values[distances + c];
+    return pipeline::is_valid(fog) ? std::optional{fog} : std::nullopt;
+}
+
+std::string fog_text(const pipeline::Fog& fog) {
+    const bool is_linear = fog.mode == pipeline::FogMode::linear;
+    const std::string distances = is_linear ? fmt::format("{},{}", fog.start, fog.end) : fmt::format("{}", fog.density);
+    const pipeline::Rgba& c = fog.color;
+    const bool is_black = c[0] == 0 && c[1] == 0 && c[2] == 0;
+    const std::string color = is_black ? "" : fmt::format(",{},{},{}", c[0], c[1], c[2]);
+    return fmt::format("{},{}{}", name_of(fog_modes, fog.mode), distances, color);
+}
+
 // What passes compare and how positions are computed.
 std::vector<OptionField> depth_fields() {
     using enum OptionGroup;
@@ -163,10 +193,19 @@ std::vector<OptionField> depth_fields() {
     };
 }
 
-// Targets, and what ends a peel.
+// Fog, targets, and what ends a peel.
 std::vector<OptionField> target_fields() {
     using enum OptionGroup;
     return {
+        usual(field<&PictureRequest::render, &RenderOptions::fog>(
+            targets,
+            {"fog", "linear,START,END|exp,DENSITY|exp2,DENSITY[,R,G,B]",
+             "glFog of all surfaces by their distance from the eye along the view, in units of the scene; the "
+             "colour as it is blended (default: no fog)",
+             "linear,START,END with two distances, or exp,DENSITY or exp2,DENSITY from 0, and a colour such as "
+             "0.5,0.6,0.7 "
+             "from 0 to 1 or none"},
+            to_fog, fog_text)),
         choice<&PictureRequest::render, &RenderOptions::color_format>(
             targets, "color-format", color_formats, "colour target (default rgba8; rgba32f on ideal)"),
         choice<&PictureRequest::render, &RenderOptions::result_format>(

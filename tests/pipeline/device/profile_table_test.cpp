@@ -130,6 +130,7 @@ constexpr FieldOfDevices device_table[] = {
     {"texture_filter",
      {"unorm8", "single", "single", "single", "code_lerps_fused", "code_lerps", "single_lerps", "single", "single"}},
     {"depth24", {"codes", "codes", "codes", "codes", "codes", "codes", "codes", "binary32", "codes"}},
+    {"fog", {"bytes", "single", "single", "single", "single", "single", "single", "single", "single"}},
     {"has_d16", {"true", "false", "false", "true", "true", "true", "true", "true", "true"}},
     {"has_d24", {"true", "true", "true", "true", "true", "true", "true", "true", "true"}},
     {"has_d32f", {"false", "true", "true", "true", "true", "true", "true", "true", "true"}},
@@ -216,6 +217,7 @@ const std::vector<NamesOfField> choice_names{
     {"denormals", {"flush", "keep"}},
     {"texture_filter", {"unorm8", "single", "code_lerps", "code_lerps_fused", "single_lerps"}},
     {"depth24", {"codes", "binary32"}},
+    {"fog", {"single", "bytes"}},
     {"sample_positions", {"standard", "nv20"}},
     {"resolve", {"codes_half_up", "single"}},
     {"alpha_to_coverage", {"nearest", "up", "down"}},
@@ -332,6 +334,7 @@ TEST_CASE("setting a choice sets the member that its key names to the enumerator
     CHECK((set("min_max_nan", "propagate") && p.min_max_nan == MinMaxNan::propagate));
     CHECK((set("denormals", "keep") && p.denormals == DenormalRule::keep));
     CHECK((set("texture_filter", "unorm8") && p.texture_filter == TextureFilterPrecision::unorm8));
+    CHECK((set("fog", "bytes") && p.fog == FogRule::bytes));
     CHECK_FALSE(set("raster.subpixel_bits", "6"));
     CHECK((set("raster.subpixel_bits", "12") && p.raster.subpixel_bits == 12));
 }

@@ -122,6 +122,7 @@ TEST_CASE("missing later fields have the values of the behaviour before them sin
                                            "clip_depth",
                                            "depth24",
                                            "depth_order",
+                                           "fog",
                                            "has_d24f",
                                            "has_unordered_access",
                                            "min_samples",

@@ -86,6 +86,8 @@ constexpr std::array pass_effects{
                "a program looks at colour, or a MASK material must be shaded", "no program looks at colour"},
     PassEffect{"texture coordinates", Effect::texcoord, [](const PassRecord& p) { return p.needs.texcoord; },
                "colour is looked at and a material has a texture", "nothing samples"},
+    PassEffect{"fog", Effect::none, [](const PassRecord& p) { return p.needs.fog; }, "colour is looked at, and --fog",
+               "no --fog"},
     PassEffect{"program depth", Effect::shader_z, [](const PassRecord& p) { return p.needs.shader_z; },
                "a program compares depths", "no program looks at depth"},
     PassEffect{"stored depth code", Effect::code, [](const PassRecord& p) { return p.needs.code; },

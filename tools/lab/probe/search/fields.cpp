@@ -71,6 +71,7 @@ constexpr Unprobed unprobed[]{
     {"raster.texture_coordinates", "no scene has a texture"},
     {"raster.perspective_coordinates", "no scene has a texture"},
     {"texture_filter", "no scene has a texture"},
+    {"fog", "no scene has fog"},
     {"raster.sample_divisor", "no scene has several samples per pixel"},
     {"sample_positions", "no scene has several samples per pixel"},
     {"resolve", "no scene has several samples per pixel"},
