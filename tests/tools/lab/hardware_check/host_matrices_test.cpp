@@ -7,6 +7,8 @@
 #include <cmath>
 #include <string>
 
+#include "tools/lab/hardware_check/drawing/fixed_pipeline.h"
+
 using namespace strata::hardware_check;
 using Rational = boost::multiprecision::cpp_rational;
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "tools/lab/hardware_check/drawing/fixed_pipeline.h"
+
 namespace strata::hardware_check {
 namespace {
 

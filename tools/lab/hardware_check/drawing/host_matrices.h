@@ -7,9 +7,11 @@
 //          (abaire/xbox_math3d, MIT), described in our words.
 // Tests    tests/tools/lab/hardware_check/host_matrices_test.cpp
 #pragma once
-#include "tools/lab/hardware_check/drawing/fixed_pipeline.h"
+#include <array>
 
 namespace strata::hardware_check {
+
+struct CompositeMatrix;  // fixed_pipeline.h
 
 using HostVector = std::array<float, 4>;
 using HostMatrix = std::array<HostVector, 4>;  // [row][column]

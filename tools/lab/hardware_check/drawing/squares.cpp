@@ -1,5 +1,6 @@
 #include "tools/lab/hardware_check/drawing/squares.h"
 
+#include "tools/lab/hardware_check/drawing/fixed_pipeline.h"
 #include "tools/lab/hardware_check/drawing/host_matrices.h"
 
 namespace strata::hardware_check {

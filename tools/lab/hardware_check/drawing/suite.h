@@ -20,11 +20,24 @@ Drawing draw_depth_buffer(std::string_view name, const pipeline::DeviceProfile& 
 Drawing draw_depth_buffer_fixed_function(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_depth_clamp(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_depth_function(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_fog(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_fog_carryover(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_fog_coord_vec4(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_fog_exceptional_value(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_fog_gen(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_fog_inf_coord(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_fog_param(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_fog_vsh(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_front_face(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_lighting_normals(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_material_alpha(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_material_color(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_material_color_source(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_pixel_shader(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_pixel_shader_with(std::string_view name, const pipeline::DeviceProfile& profile,
                                const std::string& textures);
 Drawing draw_shade_model(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_specular(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_stencil(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_stencil_func(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_surface_clip(std::string_view name, const pipeline::DeviceProfile& profile);

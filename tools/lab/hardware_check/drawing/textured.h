@@ -24,6 +24,9 @@ struct TexturedCorner {
 // filtering.
 [[nodiscard]] pipeline::Texture checker(int texels, int cell, Argb first, Argb second);
 
+// Draws a checkerboard of 256 x 256 texels over the whole window, moved by the fixed pipeline's viewport offset.
+void draw_checkerboard(pipeline::Surface& surface, int cell, Argb first, Argb second);
+
 // A rectangle-texture stage: samples at (s/q, t/q) in unnormalized texel coordinates.
 [[nodiscard]] pipeline::ShaderStage rectangle_lookup(const pipeline::BoundTexture& texture);
 

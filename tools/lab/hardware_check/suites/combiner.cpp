@@ -49,27 +49,8 @@ TriangleSoup rectangle(float x, float y, float width, float height) {
     return box({left, top, left + width, top + height}, 0xffffffff);
 }
 
-// The checkerboard behind CombinerOps and SpecialInputs: 256 x 256 texels in cells of 8, stretched over the window, so
-// that a cell covers 20 x 15 pixels.
-void draw_checkerboard(Surface& surface) {
-    constexpr int texels = 256, cell = 8;
-    pipeline::Texture board;
-    board.target = pipeline::TextureTarget::rectangle;
-    board.width = board.height = texels;
-    board.filter = pipeline::TextureFilter::nearest;
-    for (int y = 0; y < texels; ++y)
-        for (int x = 0; x < texels; ++x) {
-            const std::uint8_t grey = (x / cell + y / cell) % 2 == 0 ? 0x33 : 0x44;
-            board.texels.insert(board.texels.end(), {grey, grey, grey, 255});
-        }
-    TriangleSoup soup = rectangle(0, 0, picture_width, picture_height);
-    // The offset of 0.53125 moves the corners, so the comparison with 1 distinguishes the left and upper sides from the
-    // others.
-    for (ClipVertex& v : soup.vertices) v.texcoord = {v.x < 1 ? 0.0f : float{texels}, v.y < 1 ? 0.0f : float{texels}};
-    pipeline::DrawState state = over;
-    state.texture = &board;
-    surface.draw(state, std::move(soup));
-}
+// The checkerboard behind CombinerOps and SpecialInputs: a cell covers 20 x 15 pixels.
+void draw_greys(Surface& surface) { draw_checkerboard(surface, 8, 0xff333333, 0xff444444); }
 
 // Quad `number`, 0 to 5, of the test's grid of world points: four in the upper row, two in the
 // lower one.
@@ -170,7 +151,7 @@ SuitePicture combiner_ops(const pipeline::DeviceProfile& profile) {
         {CombinerBias::none, CombinerScale::by_two},  {CombinerBias::by_negative_half, CombinerScale::by_two},
         {CombinerBias::none, CombinerScale::by_four}, {CombinerBias::none, CombinerScale::by_half}};
     Surface surface{profile, {}};
-    draw_checkerboard(surface);
+    draw_greys(surface);
     for (int k = 0; k < 6; ++k) {
         const auto [bias, scale] = operations[k];
         const CombinerPortion rgb{.a = constant0, .b = one, .ab = Reg::spare0, .scale = scale, .bias = bias};
@@ -207,7 +188,7 @@ SuitePicture special_inputs(const pipeline::DeviceProfile& profile) {
     inverts_secondary.final_stage.inverts_secondary_color = true;
     constexpr float second = quad_top + quad_step + 24;
     Surface surface{profile, {}};
-    draw_checkerboard(surface);
+    draw_greys(surface);
     draw(surface, product, rectangle(left_column, quad_top, quad_side, quad_side));
     draw(surface, sum, rectangle(left_column, second, quad_side, quad_side));
     draw(surface, inverts_spare0, rectangle(right_column, second, quad_side, quad_side));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rasterizer/rules/depth_code.h"
+#include "tools/lab/hardware_check/drawing/fixed_pipeline.h"
 #include "tools/lab/hardware_check/drawing/host_matrices.h"
 #include "tools/lab/hardware_check/drawing/names.h"
 #include "tools/lab/hardware_check/drawing/shapes.h"

@@ -2,6 +2,7 @@
 // offset and the w buffer over wide shapes whose corners are far outside the window.
 // rasterizer/reference/chip-float-depth.md 9.1.
 #include "rasterizer/rules/depth_code.h"
+#include "tools/lab/hardware_check/drawing/fixed_pipeline.h"
 #include "tools/lab/hardware_check/drawing/host_matrices.h"
 #include "tools/lab/hardware_check/drawing/names.h"
 #include "tools/lab/hardware_check/drawing/shapes.h"

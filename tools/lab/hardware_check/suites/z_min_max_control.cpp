@@ -1,5 +1,6 @@
 // Suite ZMinMaxControl: Ctrl[Fixed][_WBuf][_NEARFAR]_<ZCULL|ZCLAMP>[_IgnW]: the fragments and whole triangles that the
 // depth range removes, by z or by w. rasterizer/reference/chip-float-depth.md 5.1.
+#include "tools/lab/hardware_check/drawing/fixed_pipeline.h"
 #include "tools/lab/hardware_check/drawing/host_matrices.h"
 #include "tools/lab/hardware_check/drawing/names.h"
 #include "tools/lab/hardware_check/drawing/shapes.h"
