@@ -1,10 +1,11 @@
 // tools/oracle/emulations/allowed_options.cpp - the options that are tried before mistakes: blend roundings, formats,
-// sample positions, profiles, limits of passes, epsilons (allowed_options.h).
+// sample positions, profiles, limits of passes, epsilons, two depths of one fragment (allowed_options.h).
 #include "tools/oracle/emulations/allowed_options.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "pipeline/device/sample_points.h"
 #include "rasterizer/base/enum_values.h"
@@ -167,6 +168,39 @@ void add_epsilons(std::vector<Mistake>& all) {
                        }});
 }
 
+// Passes that compute a fragment's depth in two ways: by two vertex programs, or by another path of depths.
+void add_paths(std::vector<Mistake>& all) {
+    using pipeline::VertexPath;
+    constexpr std::array tried{VertexPath::separate, VertexPath::fused, VertexPath::reassociated,
+                               VertexPath::double_precision};
+    const auto word_of = [](VertexPath path) { return pipeline::vertex_path_names[static_cast<std::size_t>(path)]; };
+    for (const VertexPath first : tried)
+        for (const VertexPath second : tried) {
+            if (first == second) continue;
+            all.push_back({fmt::format("vertex_paths_{}_{}", word_of(first), word_of(second)),
+                           fmt::format("passes after the first compute other depths: --vertex-path {},{}",
+                                       word_of(first), word_of(second)),
+                           ChangedPart::device, [first, second](AlteredRun& e) {
+                               const peeling::VertexPaths paths{first, second};
+                               if (e.right.passes < 2 || e.options.vertex_paths == paths) return false;
+                               e.options.vertex_paths = paths;
+                               return true;
+                           }});
+        }
+    using rasterizer::DepthPath;
+    for (const DepthPath path : enum_values<DepthPath>) {
+        const auto word = enum_name(path);
+        all.push_back({fmt::format("reference_path_{}", word),
+                       fmt::format("passes after the first compare another depth: --reference-path {}", word),
+                       ChangedPart::device, [path](AlteredRun& e) {
+                           const DepthPath own = e.options.depth_path.value_or(e.profile.raster.depth_path);
+                           if (e.right.passes < 2 || own == path || e.options.reference_path == path) return false;
+                           e.options.reference_path = path;
+                           return true;
+                       }});
+    }
+}
+
 void add_background(std::vector<Mistake>& all) {
     all.push_back(
         {"background_none", "a transparent background (--background none)", ChangedPart::device, [](AlteredRun& e) {
@@ -193,6 +227,7 @@ std::vector<Mistake> allowed_options(const peeling::Algorithm& algorithm, const 
     for (const DeviceProfile& profile : pipeline::builtin_profiles()) add_profile(all, profile);
     add_limits(all, algorithm, right);
     add_epsilons(all);
+    add_paths(all);
     add_background(all);
     return all;
 }

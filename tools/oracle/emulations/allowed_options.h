@@ -3,7 +3,8 @@
 //
 // Rule     First choices that a correct port may make silently: another rounding in blending, accumulators of other
 //          formats with the same image format, another built-in or user profile. Then options that a user has to set
-//          and that change the image: fewer passes, an epsilon, a transparent background.
+//          and that change the image: fewer passes, an epsilon, passes that compute other depths than the first, a
+//          transparent background.
 // Tests    tests/tools/oracle/emulations/allowed_options_test.cpp
 #pragma once
 #include <span>

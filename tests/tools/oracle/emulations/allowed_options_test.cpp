@@ -69,6 +69,14 @@ TEST_CASE("options are listed before mistakes and allowed ones are accepted and 
         CHECK(names(found.findings.front(), name));
         CHECK(found.findings.front().mistakes[0]->name.starts_with(std::string{name}.substr(0, 6)));
     }
+    for (const char* name : {"vertex_paths_separate_fused", "vertex_paths_double_separate", "reference_path_exact"}) {
+        INFO(name);
+        const auto picture = bench.mistake_renderer.with(option_of(all, name));
+        REQUIRE(picture);
+        const Diagnosis found = mistake_images.diagnose(*picture);
+        CHECK((found.conclusion == Conclusion::one_mistake || found.conclusion == Conclusion::right));
+        if (found.conclusion == Conclusion::one_mistake) CHECK(names(found.findings.front(), name));
+    }
     CHECK(mistake_images.diagnose(bench.mistake_renderer.right()).conclusion == Conclusion::right);
     CHECK(mistake_images.diagnose(bench.with("culls_front")).findings.front().mistakes[0]->name == "culls_front");
 }

@@ -143,6 +143,23 @@ TEST_CASE("a peel with too few passes is diagnosed with their number") {
     CHECK_THAT(dual.out, StartsWith("100 % of the pixels are those of: only the first 2 passes of 4 (--max-passes 2)"));
 }
 
+TEST_CASE("passes with two vertex programs are diagnosed with both of them") {
+    const Folder folder;
+    for (const std::string algorithm : {"front_to_back", "dual"})
+        for (const std::string paths : {"separate,fused", "separate,double"}) {
+            const std::string draw = "strata render teapot --alpha 0.5 --size 64x48 -q --algorithm " + algorithm;
+            REQUIRE(
+                shell(folder, draw + " -o right.png && " + draw + " --vertex-path " + paths + " -o port.png").status ==
+                0);
+            if (run_strata(folder, {"compare", "right.png", "port.png"}).status == 0) continue;
+            const CommandResult found =
+                run_strata(folder, {"diagnose", "teapot", "port.png", "--alpha", "0.5", "--algorithm", algorithm});
+            INFO(algorithm << found.out);
+            CHECK(found.status == 1);
+            CHECK_THAT(found.out, Contains("passes after the first compute other depths: --vertex-path " + paths));
+        }
+}
+
 TEST_CASE("a picture of another processor is recognised as that of its profile") {
     const Folder folder;
     REQUIRE(shell(folder, "strata render teapot --size 96x72 --algorithm dual --profile llvmpipe_sse -q -o theirs.png")
