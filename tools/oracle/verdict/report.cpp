@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tools/oracle/verdict/opposite_edges.h"
 #include "tools/oracle/verdict/verdict.h"
 
 namespace strata::oracle::verdict {
@@ -34,13 +35,16 @@ std::string ties_of(const CheckedAccount& c) {
 
 std::string excused_of(const CheckedAccount& c) {
     std::vector<std::string> kinds;
-    if (c.at_edges > 0) kinds.push_back(fmt::format("{} at edges that another rasterizer may cover so", c.at_edges));
+    if (c.at_edges > 0)
+        kinds.push_back(fmt::format("{} at edges that another rasterizer may cover so{}", c.at_edges,
+                                    c.at_edges < fewest_excused_edges ? ", too few to show it" : ""));
     if (c.at_close_depths > 0)
         kinds.push_back(fmt::format(
             "{} where depths differ by at most 2 codes, so that their order and merging are open", c.at_close_depths));
     if (c.lost_at_ties > 0)
-        kinds.push_back(fmt::format("{} where fragments of one depth are lost or merged, as peels do", c.lost_at_ties));
-    return fmt::format("{} excused: {}", c.excused(), fmt::join(kinds, " and "));
+        kinds.push_back(fmt::format("{} where fragments of one depth are lost or merged, as peels do{}", c.lost_at_ties,
+                                    c.lost_at_ties > 1 && c.lost_at_ties == c.tied ? ": all that show it" : ""));
+    return fmt::format("{}", fmt::join(kinds, " and "));
 }
 
 }  // namespace
@@ -49,9 +53,13 @@ std::string first_line(const Verdict& v, const pipeline::DrawList& list) {
     if (!v.finding.empty()) return "wrong: " + v.finding;
     if (v.is_right && !v.equal_to.empty())
         return fmt::format("right: equal to the picture of {} at all {}", v.equal_to, pixels(v.right.pixels));
+    // So few pixels at edges do not show whether another rasterizer or another error made them (opposite_edges.h).
+    if (v.is_right && v.right.at_edges > 0 && v.right.at_edges < fewest_excused_edges)
+        return fmt::format("right, but for {} of {}: {}; {}", v.right.excused(), pixels(v.right.pixels),
+                           excused_of(v.right), rounding_of(v.right));
     if (v.state() == State::right_but_excused)
-        return fmt::format("right: structure exact at {} of {}, {}; {}", v.right.pixels - v.right.excused(),
-                           pixels(v.right.pixels), excused_of(v.right), rounding_of(v.right));
+        return fmt::format("right: structure exact at {} of {}, {} excused: {}; {}", v.right.pixels - v.right.excused(),
+                           pixels(v.right.pixels), v.right.excused(), excused_of(v.right), rounding_of(v.right));
     if (v.is_right)
         return fmt::format("right: structure exact at all {}; {}", pixels(v.right.pixels), rounding_of(v.right));
     if (v.is_undecided()) return fmt::format("not decided: {}", v.doubt);

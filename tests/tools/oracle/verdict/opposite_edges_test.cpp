@@ -65,6 +65,30 @@ TEST_CASE("no approximate algorithm is called right where it is off by more than
     CHECK(wrong == "");
 }
 
+TEST_CASE("a picture with few pixels of another rasterizer is called right but for them, with their number") {
+    const OpenedScene opened = translucent("teapot", 200, 150);
+    OpenedScene coarse = translucent("teapot", 200, 150);
+    coarse.profile.raster.subpixel_bits = 4;
+    const auto others = *coarse.picture("front_to_back", pipeline::Format::rgba8);
+    for (const int few : {1, 3, 6}) {
+        auto picture = *opened.picture("front_to_back", pipeline::Format::rgba8);
+        int changed = 0;
+        for (std::size_t i = 0; i + 4 <= picture.codes.size() && changed < few; i += 4) {
+            bool is_far = false;
+            for (std::size_t c = i; c < i + 3; ++c) is_far |= codes_apart(picture, others, c) > 12;
+            if (!is_far) continue;
+            std::copy_n(others.codes.begin() + static_cast<std::ptrdiff_t>(i), 4,
+                        picture.codes.begin() + static_cast<std::ptrdiff_t>(i));
+            ++changed;
+        }
+        REQUIRE(changed == few);
+        const PictureVerdict found = judge_picture(opened.input(), {.colors = picture});
+        const std::string line = first_line(found.found, opened.scene.list);
+        CHECK(line.starts_with("right, but for " + std::to_string(few) + " of 30000 pixels: " + std::to_string(few) +
+                               " at edges that another rasterizer may cover so, too few to show it; "));
+    }
+}
+
 TEST_CASE("edges of a rasterizer with other snapping are excused in the direction of their coverage alone") {
     const OpenedScene opened = translucent("teapot", 200, 150);
     OpenedScene coarse = translucent("teapot", 200, 150);
