@@ -56,7 +56,8 @@ async function main() {
   const mistakes = [
     [{ ...view, scene: "teapott", algorithm: "dual" }, /teapot/],
     [{ ...view, algorithm: "duel" }, /algorithm/],
-    [{ ...view, size: [0, 4], algorithm: "dual" }, /1 to 2048/],
+    [{ ...view, size: [0, 4], algorithm: "dual" }, /from 1 to/],
+    [{ ...view, size: [4096, 4], algorithm: "dual" }, /1 to 2048/],
     [{ scene: "teapot", algorithm: "dual" }, /size/],
   ];
   for (const [question, sentence] of mistakes) assert.throws(() => strata.render(question), sentence);
