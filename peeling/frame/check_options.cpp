@@ -57,9 +57,8 @@ void check_options(const RenderOptions& o) {
         its.fail(FieldName{"termination.ratio"}, "a number of at least 0", o.termination.ratio);
     check_algorithm_options(its, o.algorithm);
     if (o.fog) its.listed("fog.mode", o.fog->mode);
-    if (o.fog && !is_valid(*o.fog))
-        throw InputError("render options", "fog", "two distances, a density of at least 0 and a colour from 0 to 1",
-                         "others");
+    if (const auto fault = o.fog ? fault_of(*o.fog) : std::nullopt)
+        its.fail(std::string{"fog."} + fault->field, fault->expected, fault->found);
     if (o.alpha) its.finite("alpha", *o.alpha);
     if (o.depth) its.listed("depth", *o.depth);
     if (o.depth_path) its.listed("depth_path", *o.depth_path);

@@ -264,7 +264,7 @@ constexpr std::array fields{
                                                         unmeasured, "[A] texturing.md 3.1: binary32 in a fixed order"}),
     choice<&Profile::depth24>("depth24", {"[M] chip-depth.md 1.3: codes", "[S] depth.md 2.1: D3D 11.3 17.10", ours,
                                           unmeasured, "[M] swiftshader-rasterizer.md 2.5"}),
-    choice<&Profile::fog>("fog", {"[M] fog-and-lighting.md 2: 66 pictures", "[A] fog-and-lighting.md 1.2", ours,
+    choice<&Profile::fog>("fog", {"[M] fog-and-lighting.md 2: 53 pictures", "[A] fog-and-lighting.md 1.2", ours,
                                   "[A] fog-and-lighting.md 1.2"}),
     boolean<&Profile::has_d16>("has_d16", {"[M] devices.md 5: Z16", "[M] devices.md 5: Z16 only from G200 on", ours,
                                            opengl, webgl, "[S] devices.md 5: DXGI_FORMAT_D16_UNORM"}),

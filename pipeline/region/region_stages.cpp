@@ -22,6 +22,7 @@
 #include "pipeline/region/region_targets.h"
 #include "pipeline/stages/alpha_test.h"
 #include "pipeline/stages/blend.h"
+#include "pipeline/stages/mix_fog.h"
 #include "pipeline/stages/stage_lanes.h"
 #include "pipeline/textures/shadow_stage.h"
 #include "pipeline/textures/texture_sample.h"

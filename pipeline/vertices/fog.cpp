@@ -1,72 +1,23 @@
-// pipeline/vertices/fog.cpp - the factor of OpenGL's fog and the mix (fog.h). The C library's exp differs between
-// computers, so that this one is our own.
+// pipeline/vertices/fog.cpp - what fog may not be, and NV2A's registers for it (fog.h).
 #include "pipeline/vertices/fog.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "pipeline/device/profile.h"
-#include "pipeline/formats/unorm8.h"
 #include "pipeline/vertices/fog_unit.h"
-#include "rasterizer/chip/truncated_weights.h"
 
 namespace strata::pipeline {
 
-namespace {
-
-constexpr double log2_of_e = 0x1.71547652b82fep+0;
-// ln 2 in two parts; the first has 32 bits, so that its product with a small integer is exact.
-constexpr double ln2_high = 0x1.62e42feep-1, ln2_low = 0x1.a39ef35793c76p-33;
-
-void mix_single(const Fog& fog, rasterizer::FragmentBatch& batch) noexcept {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
-        const float f = fog_factor(fog, batch.fog[i]), rest = 1.0f - f;
-        for (std::size_t c = 0; c < 3; ++c) batch.color[c][i] = f * batch.color[c][i] + rest * fog.color[c];
-    }
-}
-
-// As the final combiner does: A B + (1 - A) C, rounded once.
-void mix_bytes(const Fog& fog, rasterizer::FragmentBatch& batch) noexcept {
-    const FogRegisters registers = fog_registers(fog);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
-        const auto f = static_cast<std::uint32_t>(fog_factor(registers, batch.fog[i]));
-        for (std::size_t c = 0; c < 3; ++c) {
-            const std::uint32_t sum = f * to_unorm8(batch.color[c][i]) + (255 - f) * to_unorm8(fog.color[c]);
-            batch.color[c][i] = unorm8_value((sum + 127) / 255);
-        }
-    }
-}
-
-}  // namespace
-
-bool is_valid(const Fog& fog) noexcept {
-    const auto is_share = [](float v) { return v >= 0.0f && v <= 1.0f; };
-    return std::isfinite(fog.start) && std::isfinite(fog.end) && fog.start != fog.end && std::isfinite(fog.density) &&
-           fog.density >= 0.0f && is_share(fog.color[0]) && is_share(fog.color[1]) && is_share(fog.color[2]);
-}
-
-// x = n ln 2 + r with |r| <= ln 2 / 2; exp(-r) by its series, whose 14th term is below 2^-55.
-float exp_of_negative(double x) noexcept {
-    if (!(x < 110.0)) return 0.0f;
-    const auto n = static_cast<int>(x * log2_of_e + 0.5);
-    const double r = (x - n * ln2_high) - n * ln2_low;
-    double series = 1.0;
-    for (int k = 14; k > 0; --k) series = 1.0 - series * (r / k);
-    return static_cast<float>(series * rasterizer::power_of_two(-n));
-}
-
-float fog_factor(const Fog& fog, float distance) noexcept {
-    float f = 0.0f;
-    switch (fog.mode) {
-        case FogMode::linear: f = (fog.end - distance) / (fog.end - fog.start); break;
-        case FogMode::exp: f = exp_of_negative(double{fog.density * distance}); break;
-        case FogMode::exp2: {
-            const double product = double{fog.density * distance};
-            f = exp_of_negative(product * product);
-            break;
-        }
-    }
-    return std::min(std::max(f, 0.0f), 1.0f);
+std::optional<FogFault> fault_of(const Fog& fog) noexcept {
+    constexpr const char *distance = "a finite distance", *share = "a number from 0 to 1";
+    if (!std::isfinite(fog.start)) return FogFault{"start", distance, fog.start};
+    if (!std::isfinite(fog.end)) return FogFault{"end", distance, fog.end};
+    if (fog.start == fog.end) return FogFault{"end", "another distance than start", fog.end};
+    if (!std::isfinite(fog.density) || !(fog.density >= 0.0f))
+        return FogFault{"density", "a finite number of at least 0", fog.density};
+    for (std::size_t c = 0; c < 3; ++c)
+        if (!(fog.color[c] >= 0.0f && fog.color[c] <= 1.0f)) return FogFault{"color", share, fog.color[c]};
+    return std::nullopt;
 }
 
 // Eight octaves are ln 256, and the exponential functions halve v (fog-and-lighting.md 2.2).
@@ -83,13 +34,6 @@ FogRegisters fog_registers(const Fog& fog) noexcept {
 
 float vertex_fog(const Fog& fog, FogRule rule, float distance) noexcept {
     return rule == FogRule::bytes ? vertex_fog(fog_registers(fog), distance) : distance;
-}
-
-void mix_fog(const Fog& fog, FogRule rule, rasterizer::FragmentBatch& batch) noexcept {
-    if (rule == FogRule::bytes)
-        mix_bytes(fog, batch);
-    else
-        mix_single(fog, batch);
 }
 
 }  // namespace strata::pipeline

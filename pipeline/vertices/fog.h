@@ -1,15 +1,14 @@
-// pipeline/vertices/fog.h - OpenGL's fog: a fragment's colour is mixed with the fog's by its distance from the eye.
+// pipeline/vertices/fog.h - OpenGL's fog as a state, and what a vertex contributes to it.
 //
-// Rule     The distance c is |z| of the vertex in eye space, interpolated. FogRule::single: f = (end - c) / (end -
-//          start), exp(-density c) or exp(-(density c)^2), clamped to 0..1, then f C + (1 - f) Cf, all in binary32.
-//          FogRule::bytes: NV2A's registers are set to the same formula, and fog_unit.h computes 8 bits. Alpha stays.
-// Source   GL 2.1 3.10; pipeline/reference/fog-and-lighting.md 1 and 2.
-// Tests    tests/pipeline/vertices/fog_test.cpp
+// Rule     The fog coordinate is |z| of the vertex in eye space, interpolated. Under FogRule::bytes NV2A's registers
+//          are set to the same formula, and fog_unit.h says what is interpolated. stages/mix_fog.h mixes colours.
+// Source   GL 2.1 3.10; pipeline/reference/fog-and-lighting.md 1 and 2.6.
+// Tests    tests/pipeline/stages/mix_fog_test.cpp
 #pragma once
 #include <cstdint>
+#include <optional>
 
 #include "rasterizer/base/vector.h"
-#include "rasterizer/coverage/fragment_batch.h"
 
 namespace strata::pipeline {
 
@@ -26,22 +25,17 @@ struct Fog {
     friend bool operator==(const Fog&, const Fog&) = default;
 };
 
-// Finite, two distances, no negative density, and a colour from 0 to 1.
-[[nodiscard]] bool is_valid(const Fog& fog) noexcept;
-
-// exp(-x) for x >= 0, to nearest but for values within 2^-20 of a unit from a tie.
-[[nodiscard]] float exp_of_negative(double x) noexcept;
-
-// f of a distance.
-[[nodiscard]] float fog_factor(const Fog& fog, float distance) noexcept;
+// The first field that is not what it must be: finite, two distances, no negative density, a colour from 0 to 1.
+struct FogFault {
+    const char *field, *expected;
+    float found;
+};
+[[nodiscard]] std::optional<FogFault> fault_of(const Fog& fog) noexcept;
 
 // NV2A's registers for this fog.
 [[nodiscard]] FogRegisters fog_registers(const Fog& fog) noexcept;
 
 // The value of a vertex that is interpolated.
 [[nodiscard]] float vertex_fog(const Fog& fog, FogRule rule, float distance) noexcept;
-
-// Mixes the colours of the batch with the fog by its interpolated values.
-void mix_fog(const Fog& fog, FogRule rule, rasterizer::FragmentBatch& batch) noexcept;
 
 }  // namespace strata::pipeline

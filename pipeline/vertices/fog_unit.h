@@ -50,7 +50,7 @@ inline constexpr std::array<std::int32_t, 33> exp2{255, 254, 250, 243, 234, 223,
 [[nodiscard]] constexpr std::int32_t linear_fog(const FogRegisters& fog, float x) noexcept {
     if (!float22::is_finite(x)) return 255;
     const float size = fog.function == FogFunction::linear_abs && x < 0.0f ? -x : x;
-    // Exact but for the sum of numbers whose exponents are far apart, which the clamp decides.
+    // In binary64: the product is exact, and a sum may be rounded (fog-and-lighting.md 2.3).
     const double f = (double{fog.bias} + double{fog.multiplier} * double{size} - 1.0) * 4096.0;
     if (!(f >= 0.0)) return 0;
     const auto code = f >= 4096.0 ? 4096 : static_cast<std::int32_t>(f);

@@ -11,7 +11,7 @@ namespace strata::pipeline {
 namespace {
 
 namespace f22 = float22;
-namespace nv20 = rasterizer::nv20;
+namespace wide = rasterizer::nv20;
 
 [[nodiscard]] Three rounded(const Three& v) noexcept {
     return {f22::rounded(v[0]), f22::rounded(v[1]), f22::rounded(v[2])};
@@ -19,7 +19,7 @@ namespace nv20 = rasterizer::nv20;
 
 // Dot products and lengths of the 32-bit unit.
 [[nodiscard]] float wide_dot(const Three& a, const Three& b) noexcept {
-    return nv20::sum<3>({nv20::multiply(a[0], b[0]), nv20::multiply(a[1], b[1]), nv20::multiply(a[2], b[2])});
+    return wide::sum<3>({wide::multiply(a[0], b[0]), wide::multiply(a[1], b[1]), wide::multiply(a[2], b[2])});
 }
 struct Offset {
     Three unit{};             // 32 bits
@@ -27,13 +27,13 @@ struct Offset {
 };
 [[nodiscard]] Offset offset_of(const Three& v) noexcept {
     const float squared = wide_dot(v, v), inverse = f22::wide_rsq(squared);
-    return {{nv20::multiply(v[0], inverse), nv20::multiply(v[1], inverse), nv20::multiply(v[2], inverse)},
+    return {{wide::multiply(v[0], inverse), wide::multiply(v[1], inverse), wide::multiply(v[2], inverse)},
             f22::rounded(squared),
-            f22::rounded(nv20::multiply(squared, inverse))};
+            f22::rounded(wide::multiply(squared, inverse))};
 }
 [[nodiscard]] Three difference(const Three& a, const Three& b) noexcept {
     Three d{};
-    for (std::size_t i = 0; i < 3; ++i) d[i] = nv20::sum<2>({a[i], -b[i]});
+    for (std::size_t i = 0; i < 3; ++i) d[i] = wide::sum<2>({a[i], -b[i]});
     return d;
 }
 
@@ -46,8 +46,8 @@ struct Given {
 
 [[nodiscard]] float spot_factor(const LightRegisters& light, const Three& direction) noexcept {
     const auto& [x, y, z, w] = light.spot_direction;
-    const float along = nv20::sum<4>(
-        {nv20::multiply(direction[0], x), nv20::multiply(direction[1], y), nv20::multiply(direction[2], z), w});
+    const float along = wide::sum<4>(
+        {wide::multiply(direction[0], x), wide::multiply(direction[1], y), wide::multiply(direction[2], z), w});
     const float c = std::min(std::max(f22::rounded(along), 0.0f), 1.0f);
     const Three f = rounded(light.spot_falloff);
     const float under = f22::sadd(f22::mul(c, f[1]), f[2]);

@@ -130,7 +130,7 @@ std::optional<pipeline::Fog> to_fog(std::string_view text) {
     if (distances == 2) fog.start = values[0], fog.end = values[1];
     if (distances == 1) fog.density = values[0];
     for (std::size_t c = 0; c + distances < values.size(); ++c) fog.color[c] = values[distances + c];
-    return pipeline::is_valid(fog) ? std::optional{fog} : std::nullopt;
+    return pipeline::fault_of(fog) ? std::nullopt : std::optional{fog};
 }
 
 std::string fog_text(const pipeline::Fog& fog) {

@@ -164,9 +164,12 @@ TEST_CASE("fog without a valid distance, density or colour is refused before any
         }
         return std::string{};
     };
-    const std::string expected = "render options: fog: expected two distances, a density of at least 0 and a colour";
-    CHECK(message({.mode = FogMode::linear, .start = 1, .end = 1, .density = 1, .color = {}}).starts_with(expected));
-    CHECK(message({.mode = FogMode::exp, .start = 0, .end = 1, .density = -1, .color = {}}).starts_with(expected));
-    CHECK(message({.mode = FogMode::exp, .start = 0, .end = 1, .density = 1, .color = {2, 0, 0, 1}})
-              .starts_with(expected));
+    CHECK(message({.mode = FogMode::linear, .start = 1, .end = 1, .density = 1, .color = {}}) ==
+          "render options: fog.end: expected another distance than start, found 1.000000");
+    CHECK(message({.mode = FogMode::linear, .start = -INFINITY, .end = 1, .density = 1, .color = {}}) ==
+          "render options: fog.start: expected a finite distance, found -inf");
+    CHECK(message({.mode = FogMode::exp, .start = 0, .end = 1, .density = -1, .color = {}}) ==
+          "render options: fog.density: expected a finite number of at least 0, found -1.000000");
+    CHECK(message({.mode = FogMode::exp, .start = 0, .end = 1, .density = 1, .color = {2, 0, 0, 1}}) ==
+          "render options: fog.color: expected a number from 0 to 1, found 2.000000");
 }

@@ -87,6 +87,12 @@ pipeline::Combiners show_lit(Shown shown, ShownAlpha alpha) {
     return combiners;
 }
 
+pipeline::Surface cleared_to(const pipeline::DeviceProfile& profile, Argb color) {
+    pipeline::Surface surface{profile, {}};
+    surface.clear_color(unpack(color));
+    return surface;
+}
+
 void draw_lit(pipeline::Surface& surface, const pipeline::Combiners& combiners, const TriangleSoup& soup) {
     const pipeline::FragmentPath path{{}, combiners, {}};
     pipeline::DrawState state{.blend = pipeline::blend_mode::over};

@@ -52,6 +52,8 @@ enum class Shown : std::uint8_t { primary, secondary, both };
 enum class ShownAlpha : std::uint8_t { own, one };
 [[nodiscard]] pipeline::Combiners show_lit(Shown shown, ShownAlpha alpha = ShownAlpha::own);
 
+// A surface of the profile in one colour.
+[[nodiscard]] pipeline::Surface cleared_to(const pipeline::DeviceProfile& profile, Argb color);
 // Draws with these combiners, blended OVER.
 void draw_lit(pipeline::Surface& surface, const pipeline::Combiners& combiners, const TriangleSoup& soup);
 

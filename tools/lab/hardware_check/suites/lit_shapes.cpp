@@ -14,12 +14,6 @@ namespace {
 
 using pipeline::Three;
 
-pipeline::Surface cleared_to(const pipeline::DeviceProfile& profile, Argb color) {
-    pipeline::Surface surface{profile, {}};
-    surface.clear_color(unpack(color));
-    return surface;
-}
-
 // An infinite light from behind the camera's back, without half vector.
 LightingRegisters lit_from_front(const Three& diffuse) {
     LightingRegisters r;
@@ -143,8 +137,7 @@ Drawing draw_specular(std::string_view name, const pipeline::DeviceProfile& prof
     if (take(name, "NonUnitNormal_")) {
         const auto length = to_number(name);
         if (!length || !(*length > 0.9f && *length < 1.1f)) return unknown_name;
-        SuitePicture picture = fan_of_normals(profile, *length);
-        return {std::move(picture), {}};
+        return {fan_of_normals(profile, *length), {}};
     }
     if (name.starts_with("SpecParams_")) return {std::nullopt, "the test program's meshes are not in this repository"};
     if (name.starts_with("ControlFlags"))

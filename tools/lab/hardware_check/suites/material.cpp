@@ -13,12 +13,6 @@ namespace {
 using pipeline::MaterialSource;
 using pipeline::Three;
 
-pipeline::Surface cleared(const pipeline::DeviceProfile& profile, Argb color) {
-    pipeline::Surface surface{profile, {}};
-    surface.clear_color(unpack(color));
-    return surface;
-}
-
 // The registers that all of these suites set.
 LightingRegisters usual_lighting() {
     LightingRegisters r;
@@ -76,7 +70,7 @@ Drawing draw_material_color(std::string_view name, const pipeline::DeviceProfile
     const std::vector<WorldVertex> vertices{vertex(-right, top, away),    vertex(right, -top, away),
                                             vertex(right, top, away),     vertex(-right, top, toward),
                                             vertex(-right, -top, toward), vertex(right, -top, toward)};
-    pipeline::Surface surface = cleared(profile, 0xff303030);
+    pipeline::Surface surface = cleared_to(profile, 0xff303030);
     draw_lit(surface, show_lit(Shown::primary), LitCamera{}.lit(r, vertices));
     return {SuitePicture{.image = surface.color()}, {}};
 }
@@ -185,7 +179,7 @@ Drawing draw_material_color_source(std::string_view name, const pipeline::Device
         r.light[1].ambient = r.light[1].diffuse = r.light[1].specular = {0.25f, 0.25f, 0.25f};
     }
     const LitCamera camera;
-    pipeline::Surface surface = cleared(profile, 0xff303030);
+    pipeline::Surface surface = cleared_to(profile, 0xff303030);
     draw_checkerboard(surface, 20, 0xff202020, 0xff909090);
     for (std::size_t k = 0; k < 9; ++k) {
         const auto of = [&](std::size_t which) { return from_vertex[k][which] ? *source : constant; };

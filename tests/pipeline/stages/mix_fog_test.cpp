@@ -1,6 +1,6 @@
 // Tests OpenGL's fog: the exponential against 50 decimals, factors and mixes against the formulas of GL 2.1 3.10 with
 // every operation rounded in rationals, and NV2A's registers against the same factor.
-#include "pipeline/vertices/fog.h"
+#include "pipeline/stages/mix_fog.h"
 
 #include <boost/multiprecision/cpp_dec_float.hpp>
 #include <catch2/catch.hpp>
