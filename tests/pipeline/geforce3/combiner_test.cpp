@@ -22,6 +22,7 @@ using Color = std::array<int, 4>;  // codes
 struct Fragment {
     Color primary{}, secondary{};
     std::array<Color, 4> texture{};
+    Color fog{};  // its alpha is the fog factor
 };
 
 constexpr int lanes_used = 19;  // full vectors and a remainder on every instruction set
@@ -32,7 +33,7 @@ void put(ColorLanes& lanes, const Color& c) {
 
 // Runs the fragment in every lane on every instruction set; all results must be equal.
 Color run(const Combiners& state, const Fragment& f) {
-    const auto lanes = std::make_unique<std::array<ColorLanes, 7>>();
+    const auto lanes = std::make_unique<std::array<ColorLanes, 8>>();
     put((*lanes)[0], f.primary);
     put((*lanes)[1], f.secondary);
     CombinerSources sources{.primary = &(*lanes)[0], .secondary = &(*lanes)[1]};
@@ -40,6 +41,9 @@ Color run(const Combiners& state, const Fragment& f) {
         put((*lanes)[2 + u], f.texture[u]);
         sources.texture[u] = &(*lanes)[2 + u];
     }
+    put((*lanes)[7], f.fog);
+    sources.fog_factor = &(*lanes)[7][3];
+    for (std::size_t k = 0; k < 3; ++k) sources.fog[k] = static_cast<float>(f.fog[k]) / 255.0f;
     Color out{-1, -1, -1, -1};
     for (const strata::Simd simd : strata::available_simd()) {
         const strata::SimdScope scope{simd};
@@ -296,6 +300,22 @@ TEST_CASE("the final stage's product and mixture are rounded to nearest") {
     CHECK(run(state, f) == expected);
 }
 
+TEST_CASE("the final stage mixes a colour with the fog's by its factor, to nearest") {
+    Combiners state;
+    state.final_stage.a = {.source = Reg::fog, .component = CombinerComponent::alpha};
+    state.final_stage.b = {Reg::primary_color};
+    state.final_stage.c = {Reg::fog};
+    state.final_stage.g = {.source = Reg::fog, .component = CombinerComponent::alpha};
+    for (const int factor : {0, 1, 100, 128, 254, 255}) {
+        const Fragment f{.primary = {200, 10, 90, 7}, .fog = {48, 32, 127, factor}};
+        Color expected{};
+        for (std::size_t k = 0; k < 3; ++k)
+            expected[k] = (2 * (factor * f.primary[k] + (255 - factor) * f.fog[k]) + 255) / 510;
+        expected[3] = factor;
+        CHECK(run(state, f) == expected);
+    }
+}
+
 TEST_CASE("invalid combiner state is rejected") {
     const auto wrong = [](auto change) {
         Combiners state{{CombinerStage{}}, {}};
@@ -304,6 +324,11 @@ TEST_CASE("invalid combiner state is rejected") {
     };
     CHECK_THROWS_AS(CombinerUnit(wrong([](Combiners& s) { s.stages.resize(9); })), std::logic_error);
     CHECK_THROWS_AS(CombinerUnit(wrong([](Combiners& s) { s.stages[0].rgb.a.source = Reg::e_times_f; })),
+                    std::logic_error);
+    CHECK_THROWS_AS(CombinerUnit(wrong([](Combiners& s) { s.stages[0].alpha.a = {Reg::fog}; })), std::logic_error);
+    CHECK_THROWS_AS(CombinerUnit(wrong([](Combiners& s) {
+                        s.stages[0].rgb.a = {.source = Reg::fog, .component = CombinerComponent::alpha};
+                    })),
                     std::logic_error);
     CHECK_THROWS_AS(CombinerUnit(wrong([](Combiners& s) { s.stages[0].rgb.ab = Reg::constant_color0; })),
                     std::logic_error);

@@ -147,9 +147,14 @@ TEST_CASE("a fog coordinate is interpolated like a texture coordinate, and a sec
                           .perspective_color = PerspectiveColor::cut_products,
                           .texture_coordinates = CoordinateRule::cut_weights,
                           .perspective_coordinates = PerspectiveCoordinates::cut_products};
-    for (const RasterRules& rules : {RasterRules{}, chip}) {
-        RasterState state;
-        state.viewport = {0, 0, 32, 32};
+    RasterState alone;
+    alone.viewport = {0, 0, 32, 32};
+    RasterState sampled = alone;
+    sampled.sample = SamplePoint{6, 2};
+    sampled.interpolation = Interpolation::centroid;
+    sampled.sample_count = 4;
+    sampled.samples = {{{6, 2}, {14, 6}, {2, 10}, {10, 14}}};
+    for (const auto& [rules, state] : {std::pair{RasterRules{}, alone}, {chip, alone}, {RasterRules{}, sampled}}) {
         TriangleSoup soup = soup_of(random, 12, true);
         const VertexExtras given = soup.extras;
         soup.extras = {.stride = given.stride + 9,
