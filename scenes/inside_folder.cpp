@@ -2,6 +2,8 @@
 #include "scenes/inside_folder.h"
 
 #include <algorithm>
+#include <cctype>
+#include <vector>
 
 #include "rasterizer/base/input_error.h"
 
@@ -24,6 +26,25 @@ InsideFolder inside_folder(const fs::path& folder, const fs::path& name) {
     if (error) return {nothing};
     const bool is_inside = std::mismatch(home.begin(), home.end(), path.begin(), path.end()).first == home.end();
     return is_inside ? InsideFolder{inside, path} : InsideFolder{link_leaves};
+}
+
+std::string name_in_other_case(const fs::path& folder, const fs::path& name) {
+    const auto folded = [](const fs::path& part) {
+        std::string text = part.string();
+        std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        return text;
+    };
+    std::error_code error;
+    fs::path known;
+    for (const fs::path& part : name) {
+        std::vector<fs::path> alike;
+        for (fs::directory_iterator entry{folder.empty() ? "." : folder / known, error}, end; !error && entry != end;
+             entry.increment(error))
+            if (folded(entry->path().filename()) == folded(part)) alike.push_back(entry->path().filename());
+        if (alike.empty()) return "";
+        known /= *std::ranges::min_element(alike);  // the order of a folder is not defined
+    }
+    return inside_folder(folder, known).status == InsideFolder::PathStatus::inside ? known.string() : "";
 }
 
 std::string path_inside(const std::string& folder, const std::string& name, const std::string& file,

@@ -24,6 +24,9 @@ struct InsideFolder {
 // `name` is a path as stored in the file, relative to `folder`.
 [[nodiscard]] InsideFolder inside_folder(const std::filesystem::path& folder, const std::filesystem::path& name);
 
+// The name as the file system has it, if only letter case differs; empty if there is no such file inside the folder.
+[[nodiscard]] std::string name_in_other_case(const std::filesystem::path& folder, const std::filesystem::path& name);
+
 // The same, but throws InputError{file, place} with one message per fault.
 [[nodiscard]] std::string path_inside(const std::string& folder, const std::string& name, const std::string& file,
                                       const std::string& location);

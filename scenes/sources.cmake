@@ -42,6 +42,7 @@ set(strata_scenes_sources
   gltf/mesh.cpp
   gltf/model.cpp
   gltf/nodes.cpp
+  gltf/pose.cpp
   models/load_model_module.cpp
   models/model_counts.cpp
   models/models.cpp

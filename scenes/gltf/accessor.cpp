@@ -82,6 +82,12 @@ std::array<float, 4> AccessorReader::element(std::size_t i) const {
     return values;
 }
 
+float AccessorReader::component(std::size_t i, std::size_t c) const {
+    assert(c < components_ && type_ == ComponentType::f32);
+    const std::byte* bytes = at(i);
+    return bytes == nullptr ? 0 : component_value(bits(bytes + c * component_bytes(type_), type_), type_, false);
+}
+
 std::uint32_t AccessorReader::index(std::size_t i) const {
     const std::byte* bytes = at(i);
     return bytes == nullptr ? 0 : bits(bytes, type_);

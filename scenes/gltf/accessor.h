@@ -20,8 +20,9 @@ class AccessorReader {
     AccessorReader(const tinygltf::Model& model, std::size_t accessor, Buffers& buffers, const FileLocation& location);
 
     [[nodiscard]] std::size_t count() const { return count_; }
-    [[nodiscard]] std::size_t components() const { return components_; }  // 1 to 4; matrices are not read
-    [[nodiscard]] std::array<float, 4> element(std::size_t i) const;      // missing components are 0
+    [[nodiscard]] std::size_t components() const { return components_; }  // 16 of a MAT4
+    [[nodiscard]] std::array<float, 4> element(std::size_t i) const;      // of 1 to 4 components; missing ones are 0
+    [[nodiscard]] float component(std::size_t i, std::size_t c) const;    // of a matrix of binary32: column by column
     [[nodiscard]] std::uint32_t index(std::size_t i) const;               // for a scalar of unsigned integers
     [[nodiscard]] std::uint32_t restart_index() const;                    // the type's largest value: not a valid index
 

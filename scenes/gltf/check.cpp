@@ -1,6 +1,8 @@
 // scenes/gltf/check.cpp - checks of the whole document: asset, extensions, unsupported features. See check.h.
 #include "scenes/gltf/check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -8,21 +10,13 @@ namespace strata::scenes {
 namespace {
 
 // Extensions that a file may require. An extension that is used without being required is ignored with a warning.
-constexpr std::array implemented{"EXT_mesh_gpu_instancing", "KHR_materials_unlit", "KHR_mesh_quantization",
-                                 "KHR_texture_transform"};
+constexpr std::array<std::string_view, 7> implemented{"EXT_mesh_gpu_instancing", "KHR_materials_pbrSpecularGlossiness",
+                                                      "KHR_materials_unlit",     "KHR_materials_variants",
+                                                      "KHR_mesh_quantization",   "KHR_node_visibility",
+                                                      "KHR_texture_transform"};
 
 bool is_implemented(const std::string& name) {
     return std::find(implemented.begin(), implemented.end(), name) != implemented.end();
-}
-
-// How a user can remove an extension that a file requires; "" if no way is known.
-std::string way_out_of(const std::string& extension) {
-    if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression")
-        return " (gltf-transform copy IN.glb OUT.glb unpacks it)";
-    if (extension == "KHR_texture_basisu") return " (gltf-transform ktxdecompress IN.glb OUT.glb unpacks it)";
-    if (extension == "KHR_materials_transmission")
-        return " (make the material alphaMode BLEND in its editor: transmission is not alpha)";
-    return "";
 }
 
 struct Version {
@@ -63,6 +57,17 @@ void check_every_name(const JsonAt& root, Faults& faults) {  // of the objects t
 
 }  // namespace
 
+std::string way_out_of(const std::string& extension) {
+    if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression")
+        return " (gltf-transform copy IN.glb OUT.glb unpacks it)";
+    if (extension == "KHR_texture_basisu") return " (gltf-transform ktxdecompress IN.glb OUT.glb unpacks it)";
+    if (extension == "EXT_texture_webp" || extension == "EXT_texture_avif")
+        return " (gltf-transform png --formats \"*\" IN.glb OUT.glb converts it)";
+    if (extension == "KHR_materials_transmission")
+        return " (make the material alphaMode BLEND in its editor: transmission is not alpha)";
+    return "";
+}
+
 bool uses_extension(const JsonAt& root, const char* name) {
     const auto used = root.elements("extensionsUsed");
     return std::any_of(used.begin(), used.end(), [&](const JsonAt& e) { return e.json() == name; });
@@ -78,17 +83,18 @@ std::optional<std::size_t> check_reference(const JsonAt& owner, const char* key,
 void check_extensions(const JsonAt& root, Warnings& warnings, Faults& faults) {
     faults.collect_each(root, "extensionsRequired", [](const JsonAt& required) {
         if (!is_implemented(required.string()))
-            required.fail(
-                "UNSUPPORTED_EXTENSION",
-                "no required extension but EXT_mesh_gpu_instancing, KHR_materials_unlit, KHR_mesh_quantization and "
-                "KHR_texture_transform" +
-                    way_out_of(required.string()));
+            required.fail("UNSUPPORTED_EXTENSION",
+                          fmt::format("no required extension but {}{}", fmt::join(implemented, ", "),
+                                      way_out_of(required.string())));
     });
     faults.collect_each(root, "extensionsUsed", [&](const JsonAt& used) {
         // Each material that transmits light has a warning of its own (material.cpp).
         if (!is_implemented(used.string()) && used.string() != "KHR_materials_transmission")
             warnings.add(used.location().pointer, "extension " + one_line(used.string()) + " is ignored");
     });
+    const auto extensions = root.find("extensions");
+    if (const auto variants = extensions ? extensions->find("KHR_materials_variants") : std::nullopt)
+        warnings.add(variants->location().pointer, "the default materials are drawn, not a variant");
 }
 
 // Each check relies on the previous ones: accessors on the lengths of the views, meshes on the formats of the
@@ -104,12 +110,16 @@ void check_document(const JsonAt& root, Warnings& warnings) {
     check_images(root, of_data);
     check_materials(root, warnings, of_data);
     // A primitive is compared with its accessors and its material.
-    if (of_data.empty()) check_meshes(root, warnings, of_data);
+    if (of_data.empty()) {
+        check_meshes(root, warnings, of_data);
+        check_skins(root, of_data);
+    }
     faults.add(of_data);
     check_cameras(root, faults);
     check_nodes(root, warnings, faults);
     faults.report();
-    if (root.size("animations") > 0) warnings.add("/animations", "animations are ignored: nodes stand as written");
+    if (root.size("animations") > 0)
+        warnings.add("/animations", "animations are ignored: nodes, joints and morph weights stay as written");
 }
 
 }  // namespace strata::scenes

@@ -32,6 +32,11 @@ void check_meshes(const JsonAt& root, Warnings& warnings, Faults& faults);
 void check_cameras(const JsonAt& root, Faults& faults);
 void check_nodes(const JsonAt& root, Warnings& warnings, Faults& faults);  // nodes, scenes, scene
 
+void check_skins(const JsonAt& root, Faults& faults);  // after accessors
+
+// How a user can remove an extension that is not read, in parentheses; "" if no way is known.
+[[nodiscard]] std::string way_out_of(const std::string& extension);
+
 // True if extensionsUsed contains the extension.
 [[nodiscard]] bool uses_extension(const JsonAt& root, const char* name);
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "scenes/gltf/base_color.h"
 #include "scenes/gltf/check.h"
 #include "scenes/numbers/elementary.h"
 
@@ -47,10 +48,13 @@ void check_base_color_texture(const JsonAt& info, const JsonAt& root) {
     const std::size_t texture = info.member("index").index(root.size("textures"));
     if (const auto set = info.find("texCoord")) (void)set->integer(0, max_bytes);
     check_texture_transform(info);
-    if (root.json()["textures"][texture].contains("source")) return;
-    const FileLocation location = root.location().under("textures").under(texture);
-    location.fail("UNDEFINED_PROPERTY", "a PNG or JPEG image as source",
-                  "no source (only an extension that strata does not read has one)");
+    const JsonAt used{root.json()["textures"][texture], root.location().under("textures").under(texture)};
+    if (used.has("source")) return;
+    std::string found = "no source";
+    if (const auto extensions = used.find("extensions"); extensions && !extensions->json().empty())
+        if (const std::string name = extensions->json().items().begin().key(); true)
+            found = "an image by " + one_line(name) + " alone" + way_out_of(name);
+    used.location().fail("UNDEFINED_PROPERTY", "a PNG or JPEG image as source", found);
 }
 
 // glTF 2.0, 3.9.2: linear r g b a, each from 0 to 1. JSON cannot write a NaN.
@@ -61,17 +65,28 @@ void check_color(const JsonAt& factor) {
             channel.fail("VALUE_NOT_IN_RANGE", "a number from 0 to 1");
 }
 
-void check_metallic_roughness(const JsonAt& pbr, const JsonAt& root, Warnings& warnings) {
-    if (const auto factor = pbr.find("baseColorFactor")) check_color(*factor);
-    if (const auto texture = pbr.find("baseColorTexture")) check_base_color_texture(texture->object(), root);
+void check_base_color(const JsonAt& material, const JsonAt& root, Warnings& warnings) {
+    const auto pbr = material.find("pbrMetallicRoughness");
+    if (pbr) (void)pbr->object();
+    const BaseColor base = base_color_of(material);
+    if (base.factor) check_color(*base.factor);
+    if (base.texture) check_base_color_texture(base.texture->object(), root);
+    const auto extensions = material.find("extensions");
+    const auto old = extensions ? extensions->find("KHR_materials_pbrSpecularGlossiness") : std::nullopt;
+    if (old) {
+        for (const char* key : {"specularFactor", "glossinessFactor", "specularGlossinessTexture"})
+            if (const auto ignored = old->object().find(key))
+                warnings.add(ignored->location().pointer, "specular and glossiness are ignored: lighting is diffuse");
+        return;
+    }
     for (const char* key : {"metallicFactor", "roughnessFactor", "metallicRoughnessTexture"})
-        if (const auto ignored = pbr.find(key))
+        if (const auto ignored = pbr ? pbr->find(key) : std::nullopt)
             warnings.add(ignored->location().pointer, "metallic and roughness are ignored: lighting is diffuse");
 }
 
 // Ignored features get a warning and no check: a fault in a normal map does not prevent the scene from being drawn.
 void check_material(const JsonAt& material, const JsonAt& root, Warnings& warnings) {
-    if (const auto pbr = material.find("pbrMetallicRoughness")) check_metallic_roughness(pbr->object(), root, warnings);
+    check_base_color(material, root, warnings);
     if (const auto mode = material.find("alphaMode")) {
         const std::string name = mode->string();
         if (name != "OPAQUE" && name != "MASK" && name != "BLEND")

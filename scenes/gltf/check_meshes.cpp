@@ -1,4 +1,5 @@
 // scenes/gltf/check_meshes.cpp - primitives: attributes, their formats, indices, modes. See check.h.
+#include "scenes/gltf/base_color.h"
 #include "scenes/gltf/check.h"
 #include "scenes/gltf/element.h"
 
@@ -46,6 +47,9 @@ bool is_allowed(const std::string& name, const AccessorFormat& f, bool is_quanti
         return f.type == ElementType::vec2 && (is_float || is_unorm || (is_quantized && is_small_integer(f)));
     if (name.starts_with("COLOR_"))
         return (f.type == ElementType::vec3 || f.type == ElementType::vec4) && (is_float || is_unorm);
+    if (name.starts_with("JOINTS_"))
+        return f.type == ElementType::vec4 && is_small_integer(f) && !is_signed(f) && !f.is_normalized;
+    if (name.starts_with("WEIGHTS_")) return f.type == ElementType::vec4 && (is_float || is_unorm);
     return true;
 }
 
@@ -107,11 +111,10 @@ struct MeshChecker {
         const auto material = primitive.find("material");
         if (!material) return std::nullopt;
         const std::size_t index = material->index(materials);  // first: without it there may be no such key
-        const Json& m = root.json()["materials"][index];
-        const Json::json_pointer info{"/pbrMetallicRoughness/baseColorTexture"};
-        if (!m.contains(info)) return std::nullopt;
+        const auto info = base_color_of({root.json()["materials"][index], material->location()}).texture;
+        if (!info) return std::nullopt;
         const Json::json_pointer replaced{"/extensions/KHR_texture_transform/texCoord"};
-        const Json& texture = m[info];
+        const Json& texture = info->json();
         return texture.contains(replaced) ? texture[replaced].get<std::uint64_t>()
                                           : texture.value("texCoord", std::uint64_t{0});
     }
@@ -125,6 +128,17 @@ struct MeshChecker {
             if (!root.json()["accessors"][accessor.get<std::size_t>()].contains("bufferView"))
                 extensions->location().fail("UNSUPPORTED_EXTENSION", "plain data next to KHR_draco_mesh_compression",
                                             "none");
+    }
+
+    // glTF 2.0, 3.7.2.2: a target changes attributes that the primitive has.
+    void check_target(const JsonAt& target, const JsonAt& attributes, std::optional<std::uint64_t> count) const {
+        for (const auto& item : target.object().json().items()) {
+            const JsonAt attribute = target.member(item.key());
+            if (!attributes.has(item.key()))
+                attribute.location().fail("MESH_PRIMITIVE_MORPH_TARGET_NO_BASE_ACCESSOR",
+                                          "an attribute that the primitive has", in_quotes(item.key()));
+            check_attribute(attribute, item.key(), count);
+        }
     }
 
     void check_primitive(const JsonAt& primitive, Warnings& warnings) const {
@@ -141,14 +155,25 @@ struct MeshChecker {
         if (set && attributes.has("POSITION") && !attributes.has("TEXCOORD_" + std::to_string(*set)))
             primitive.location().fail("MESH_PRIMITIVE_TOO_FEW_TEXCOORDS",
                                       "TEXCOORD_" + std::to_string(*set) + " for the material's texture", "none");
-        // A primitive is drawn as stored; morph targets are not applied.
-        if (primitive.has("targets"))
-            warnings.add(primitive.location().under("targets").pointer, "morph targets are ignored");
+        for (const JsonAt& target : primitive.elements("targets")) check_target(target, attributes, count);
         for (const auto& item : attributes.json().items())
             if (item.key().starts_with("COLOR_") && item.key() != "COLOR_0")
                 warnings.add(attributes.location().pointer, "vertex colours beyond COLOR_0 are ignored");
     }
 };
+
+// All primitives of a mesh have as many targets as the mesh has weights, if it has weights.
+void check_target_counts(const JsonAt& mesh) {
+    const std::vector<JsonAt> primitives = mesh.elements("primitives");
+    for (const JsonAt& primitive : primitives)
+        if (primitive.size("targets") != primitives[0].size("targets"))
+            primitive.location().fail(
+                "MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT",
+                "as many morph targets as the first primitive: " + std::to_string(primitives[0].size("targets")),
+                std::to_string(primitive.size("targets")));
+    if (const auto weights = mesh.find("weights"))
+        weights->numbers(primitives.empty() ? 0 : primitives[0].size("targets"));
+}
 
 }  // namespace
 
@@ -159,6 +184,7 @@ void check_meshes(const JsonAt& root, Warnings& warnings, Faults& faults) {
         (void)mesh.member("primitives");
         faults.collect_each(mesh, "primitives",
                             [&](const JsonAt& primitive) { checker.check_primitive(primitive, warnings); });
+        check_target_counts(mesh);
     });
 }
 

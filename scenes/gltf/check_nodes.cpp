@@ -1,8 +1,9 @@
-// scenes/gltf/check_nodes.cpp - checks cameras, nodes and scenes, and that the nodes form a forest. See check.h.
+// scenes/gltf/check_nodes.cpp - checks cameras, skins, nodes and scenes, and that the nodes form a forest. See check.h.
 #include <cmath>
 #include <set>
 
 #include "scenes/gltf/check.h"
+#include "scenes/gltf/element.h"
 #include "scenes/gltf/instancing.h"
 #include "scenes/numbers/elementary.h"
 
@@ -64,6 +65,15 @@ void check_transform(const JsonAt& node) {
     if (const auto rotation = node.find("rotation")) check_rotation(*rotation);
 }
 
+// As many weights as the mesh has morph targets.
+void check_weights(const JsonAt& node, const JsonAt& weights, const JsonAt& root) {
+    const auto mesh = node.find("mesh");
+    if (!mesh) weights.location().fail("UNSATISFIED_DEPENDENCY", "a mesh next to weights", "none");
+    const std::vector<JsonAt> primitives =
+        root.elements("meshes").at(mesh->index(root.size("meshes"))).elements("primitives");
+    weights.numbers(primitives.empty() ? 0 : primitives[0].size("targets"));
+}
+
 // Each child is listed once and has one parent.
 void check_children(const JsonAt& node, std::size_t index, std::vector<std::size_t>& parents) {
     for (const JsonAt& child_at : node.elements("children")) {
@@ -103,7 +113,29 @@ void check_scenes(const JsonAt& root, const std::vector<std::size_t>& parents, F
     faults.collect([&] { check_reference(root, "scene", root, "scenes"); });
 }
 
+// glTF 2.0, 3.7.3: joints are nodes, each once; a matrix for each of them, if there are matrices.
+void check_skin(const JsonAt& skin, const JsonAt& root) {
+    std::set<std::size_t> seen;
+    (void)skin.member("joints");
+    for (const JsonAt& joint : skin.elements("joints"))
+        if (!seen.insert(joint.index(root.size("nodes"))).second) joint.fail("DUPLICATE_ELEMENTS", "each joint once");
+    if (seen.empty()) skin.member("joints").fail("EMPTY_ENTITY", "at least one joint");
+    const auto matrices = skin.find("inverseBindMatrices");
+    if (!matrices) return;
+    const Json& accessor = root.json()["accessors"][matrices->index(root.size("accessors"))];
+    if (accessor["type"] != "MAT4" || accessor["componentType"] != static_cast<int>(ComponentType::f32))
+        matrices->fail("SKIN_IBM_INVALID_FORMAT", "an accessor of MAT4 in binary32");
+    if (accessor["count"].get<std::uint64_t>() < seen.size())
+        matrices->location().fail("INVALID_IBM_ACCESSOR_COUNT",
+                                  "a matrix for each of " + std::to_string(seen.size()) + " joints",
+                                  std::to_string(accessor["count"].get<std::uint64_t>()));
+}
+
 }  // namespace
+
+void check_skins(const JsonAt& root, Faults& faults) {
+    faults.collect_each(root, "skins", [&](const JsonAt& skin) { check_skin(skin, root); });
+}
 
 void check_cameras(const JsonAt& root, Faults& faults) {
     faults.collect_each(root, "cameras", [](const JsonAt& camera) {
@@ -126,11 +158,12 @@ void check_nodes(const JsonAt& root, Warnings& warnings, Faults& faults) {
         check_transform(node);
         check_reference(node, "mesh", root, "meshes");
         check_reference(node, "camera", root, "cameras");
-        if (check_reference(node, "skin", root, "skins"))
-            warnings.add(node.location().under("skin").pointer,
-                         "skins are ignored: the mesh stands as stored, moved by its node");
+        check_reference(node, "skin", root, "skins");
         if (const auto instancing = instancing_of(node)) check_instancing(*instancing, root);
-        if (node.has("weights")) warnings.add(node.location().under("weights").pointer, "morph targets are ignored");
+        if (const auto weights = node.find("weights")) check_weights(node, *weights, root);
+        const auto visible = visibility_of(node);
+        if (visible && !visible->boolean())
+            warnings.add(visible->location().pointer, "hidden by the file (KHR_node_visibility): it is not drawn");
         check_children(node, index, parents);
     });
     faults.collect([&] { check_loops(root, parents); });

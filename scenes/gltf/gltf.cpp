@@ -18,6 +18,7 @@
 #include "scenes/gltf/instancing.h"
 #include "scenes/gltf/mesh.h"
 #include "scenes/gltf/nodes.h"
+#include "scenes/gltf/pose.h"
 
 namespace strata::scenes {
 namespace {
@@ -35,7 +36,8 @@ class SceneBuilder {
           instanced_left_{limits.instanced},
           buffers_{document, budget_},
           accessors_{document, model_, buffers_},
-          materials_{{document, model_, buffers_, budget_, warnings, options, scene_.list}} {
+          materials_{{document, model_, buffers_, budget_, warnings, options, scene_.list}},
+          skins_{document, model_, accessors_, budget_} {
         // The file's own bytes count; each buffer adds its bytes when it is read.
         budget_.allow_elements(16 * document.size);
     }
@@ -43,9 +45,9 @@ class SceneBuilder {
     Scene build() {
         scene_.scene_count = static_cast<int>(model_.scenes.size());
         const std::vector<int> roots = choose_roots();
-        for (const PlacedNode& placed : place_nodes(model_, roots, document_.file)) {
+        for (const PlacedNode& placed : place_nodes(document_, model_, roots)) {
             const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(placed.node)];
-            if (node.mesh >= 0) add_instances(node.mesh, placed);
+            if (node.mesh >= 0 && !placed.is_hidden) add_instances(node.mesh, placed);
             if (node.camera >= 0) add_camera(node, placed);
         }
         scene_.bounds = bounds_of(scene_.list);
@@ -64,27 +66,28 @@ class SceneBuilder {
                                                          "a scene number below " + std::to_string(count),
                                                          std::to_string(*options_.scene));
         warnings_.add("/scenes", "the file has no scene: all its nodes are shown");
-        std::vector<char> is_child(model_.nodes.size(), 0);
-        for (const tinygltf::Node& node : model_.nodes)
-            for (const int child : node.children) is_child[static_cast<std::size_t>(child)] = 1;
-        std::vector<int> roots;
-        for (std::size_t i = 0; i < is_child.size(); ++i)
-            if (is_child[i] == 0) roots.push_back(static_cast<int>(i));
-        return roots;
+        return root_nodes(model_);
     }
 
     // A primitive with triangles, as indices into the draw list.
     struct Drawable {
         std::uint32_t mesh, material;
+        bool is_skinned;  // in world space
     };
 
-    // A mesh is loaded for the first node that uses it; further nodes only add instances. Instances multiply work
-    // without enlarging the file, so their corners have a separate limit.
+    // A mesh is loaded for the first node that shows it in this pose; further nodes only add instances. Instances
+    // multiply work without enlarging the file, so their corners have a separate limit.
     void add_instances(int mesh, const PlacedNode& placed) {
-        const auto found = drawables_.find(mesh);
+        const JsonAt node = document_.at("nodes", static_cast<std::size_t>(placed.node));
+        const auto instancing = instancing_of(node);
+        Pose pose = pose_of(node, document_.at("meshes", static_cast<std::size_t>(mesh)), placed.world);
+        if (instancing && pose.skin >= 0) {
+            warnings_.add(node.location().pointer, "the skin of an instanced mesh is ignored");
+            pose.skin = -1, pose.is_mirrored = false;
+        }
+        const auto found = drawables_.find({mesh, pose});
         const std::vector<Drawable>& drawables =
-            found != drawables_.end() ? found->second : (drawables_[mesh] = load_mesh(mesh));
-        const auto instancing = instancing_of(document_.at("nodes", static_cast<std::size_t>(placed.node)));
+            found != drawables_.end() ? found->second : (drawables_[{mesh, pose}] = load_mesh(mesh, pose));
         if (!instancing) return add_instances(drawables, placed);
         for (const pipeline::Matrix& own : instance_transforms(*instancing, accessors_, budget_))
             add_instances(drawables, {placed.node, finite_product(placed, own)});
@@ -108,29 +111,40 @@ class SceneBuilder {
                 location_of(placed).fail("VALUE_NOT_IN_RANGE", "at most 2^31 indices in all instances together",
                                          "more indices with this node");
             instanced_left_ -= corners;
-            scene_.list.instances.push_back({drawable.mesh, drawable.material, placed.world});
+            scene_.list.instances.push_back(
+                {drawable.mesh, drawable.material, drawable.is_skinned ? pipeline::identity : placed.world});
         }
     }
 
     // One mesh of the draw list per primitive that has a triangle; if there are several, the name includes the
     // primitive's index.
-    std::vector<Drawable> load_mesh(int index) {
+    std::vector<Drawable> load_mesh(int index, const Pose& pose) {
         const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(index)];
-        const FileLocation location =
-            document_.at("meshes", static_cast<std::size_t>(index)).location().under("primitives");
+        const std::vector<JsonAt> primitives =
+            document_.at("meshes", static_cast<std::size_t>(index)).elements("primitives");
         const std::string name = mesh.name.empty() ? "mesh " + std::to_string(index) : mesh.name;
         std::vector<Drawable> drawables;
         for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
             const tinygltf::Primitive& primitive = mesh.primitives[p];
             const LoadedMaterial& material = materials_[primitive.material];
-            auto loaded = load_primitive(
-                {primitive, location.under(p), material, accessors_, budget_, warnings_, options_.color_space});
+            const auto joints = joints_of(pose, primitives[p]);
+            auto loaded = load_primitive({primitive, primitives[p].location(), material, accessors_, budget_, warnings_,
+                                          options_.color_space, primitives[p], pose, joints});
             if (!loaded) continue;
             loaded->name = mesh.primitives.size() == 1 ? name : name + "/" + std::to_string(p);
-            drawables.push_back({static_cast<std::uint32_t>(scene_.list.meshes.size()), material.index});
+            drawables.push_back(
+                {static_cast<std::uint32_t>(scene_.list.meshes.size()), material.index, !joints.empty()});
             scene_.list.meshes.push_back(*std::move(loaded));
         }
         return drawables;
+    }
+
+    // Empty for a primitive that is not skinned.
+    std::span<const pipeline::Matrix> joints_of(const Pose& pose, const JsonAt& primitive) {
+        if (pose.skin < 0) return {};
+        if (has_joints(primitive)) return skins_.joints(pose.skin);
+        warnings_.add(primitive.location().pointer, "a skin moves nothing of it: it has no JOINTS_0 and WEIGHTS_0");
+        return {};
     }
 
     // `base`, or the first of base#2, base#3 ... that no previous camera has, so that --camera NAME can select each.
@@ -172,7 +186,8 @@ class SceneBuilder {
     Buffers buffers_;
     Accessors accessors_;
     Materials materials_;
-    std::map<int, std::vector<Drawable>> drawables_;
+    Skins skins_;
+    std::map<std::pair<int, Pose>, std::vector<Drawable>> drawables_;
     std::map<std::string, int> camera_names_;
     std::set<std::string> taken_names_;
 };

@@ -7,6 +7,7 @@
 
 #include "rasterizer/base/numerics.h"
 #include "scenes/files/image_decode.h"
+#include "scenes/gltf/base_color.h"
 #include "scenes/gltf/document/uri.h"
 #include "scenes/numbers/elementary.h"
 #include "scenes/numbers/srgb_encode.h"
@@ -42,11 +43,11 @@ std::optional<TextureTransform> texture_transform(const JsonAt& info) {
 }
 
 // The transform may name its own texture coordinate set, which overrides the texture's (KHR_texture_transform).
-int texcoord_set(const JsonAt& info, int written) {
+int texcoord_set(const JsonAt& info) {
     const auto extensions = info.find("extensions");
     const auto transform = extensions ? extensions->find("KHR_texture_transform") : std::nullopt;
     const auto replaced = transform ? transform->find("texCoord") : std::nullopt;
-    return replaced ? replaced->json().get<int>() : written;
+    return replaced ? replaced->json().get<int>() : info.json().value("texCoord", 0);
 }
 
 // Every fourth code is an alpha.
@@ -94,9 +95,10 @@ void Materials::read(std::size_t material, pipeline::Material& made, LoadedMater
     made.alpha_mode = alpha_mode(m.alphaMode);
     made.alpha_cutoff = static_cast<float>(std::min(m.alphaCutoff, 2.0));  // with a cutoff above 1 nothing passes
     made.double_sided = m.doubleSided;
-    const auto& factor = m.pbrMetallicRoughness.baseColorFactor;
-    for (std::size_t i = 0; i < 4; ++i) made.front[i] = static_cast<float>(factor[i]);
     const JsonAt at = c_.document.at("materials", material);
+    const BaseColor base = base_color_of(at);
+    for (std::size_t i = 0; i < 4; ++i)
+        made.front[i] = base.factor ? static_cast<float>(base.factor->json()[i].get<double>()) : 1.0f;
     // Neither vertex colours nor textures can raise the material's alpha.
     if (made.alpha_mode == AlphaMode::mask && made.front[3] < made.alpha_cutoff)
         c_.warnings.add(at.location().pointer, "its alpha is below its cutoff: nothing of it is drawn");
@@ -106,12 +108,10 @@ void Materials::read(std::size_t material, pipeline::Material& made, LoadedMater
     const auto extensions = at.find("extensions");
     if (extensions) warn_of_transmission(*extensions, made);
     made.unlit = extensions && extensions->has("KHR_materials_unlit");
-    const tinygltf::TextureInfo& info = m.pbrMetallicRoughness.baseColorTexture;
-    if (info.index < 0) return;
-    const JsonAt info_at = at.member("pbrMetallicRoughness").member("baseColorTexture");
-    made.texture = texture(info.index, made.alpha_mode == AlphaMode::opaque);
-    loaded.texcoord_set = texcoord_set(info_at, info.texCoord);
-    loaded.transform = texture_transform(info_at);
+    if (!base.texture) return;
+    made.texture = texture(base.texture->member("index").json().get<int>(), made.alpha_mode == AlphaMode::opaque);
+    loaded.texcoord_set = texcoord_set(*base.texture);
+    loaded.transform = texture_transform(*base.texture);
 }
 
 // Transmission lets light through without blending and is not alpha: the material is drawn with its alpha mode.

@@ -86,7 +86,7 @@ UsedVertices select_unshared(Indices corners) {
 template <class Take>
 void read_finite(const PrimitiveSource& s, const std::string& name, const Indices& vertices, Take&& take) {
     const int accessor = s.primitive.attributes.at(name);
-    const AccessorReader& reader = s.accessors[accessor];
+    const MorphedAttribute reader{s.json, name, s.pose.weights, s.accessors, s.budget};
     for (const std::uint32_t vertex : vertices) {
         const std::array<float, 4> value = reader.element(vertex);
         if (!std::all_of(value.begin(), value.end(), [](float f) { return std::isfinite(f); }))
@@ -126,6 +126,15 @@ std::vector<pipeline::Vec2> read_texcoords(const PrimitiveSource& s, const Indic
     return texcoords;
 }
 
+// Moves the vertices to where the joints put them.
+void skin(pipeline::Mesh& mesh, const PrimitiveSource& s, const Indices& vertices) {
+    s.budget.pay_elements(vertices.size(), sizeof(pipeline::Matrix), s.location);
+    const auto matrices = skin_matrices(s.json, s.joints, vertices, s.accessors, s.warnings);
+    std::transform(matrices.begin(), matrices.end(), mesh.positions.begin(), mesh.positions.begin(), skinned_position);
+    if (!mesh.normals.empty())
+        std::transform(matrices.begin(), matrices.end(), mesh.normals.begin(), mesh.normals.begin(), skinned_normal);
+}
+
 }  // namespace
 
 std::optional<pipeline::Mesh> load_primitive(const PrimitiveSource& s) {
@@ -139,6 +148,8 @@ std::optional<pipeline::Mesh> load_primitive(const PrimitiveSource& s) {
     const AccessorReader& positions = s.accessors[attributes.at("POSITION")];
     Indices all = corners(drawing_order(s, positions.count()), mode, s);
     if (all.empty()) return std::nullopt;
+    if (s.pose.is_mirrored && !s.joints.empty())
+        for (std::size_t i = 0; i < all.size(); i += 3) std::swap(all[i + 1], all[i + 2]);
 
     // glTF 2.0, 3.7.2.1: without normals a lit surface is flat. An unlit one needs none and keeps its shared
     // vertices.
@@ -147,16 +158,17 @@ std::optional<pipeline::Mesh> load_primitive(const PrimitiveSource& s) {
     pipeline::Mesh mesh;
     mesh.indices = std::move(selection.indices);
     mesh.positions.reserve(selection.vertices.size());
+    const MorphedAttribute position{s.json, "POSITION", s.pose.weights, s.accessors, s.budget};
     for (const std::uint32_t vertex : selection.vertices) {
-        const std::array<float, 4> p = positions.element(vertex);
+        const std::array<float, 4> p = position.element(vertex);
         mesh.positions.push_back({p[0], p[1], p[2]});
     }
-    if (is_flat)
-        mesh.normals = flat_normals(mesh.positions);
-    else if (!s.material.is_unlit)
+    if (!is_flat && !s.material.is_unlit)
         read_finite(s, "NORMAL", selection.vertices, [&](const std::array<float, 4>& n, std::size_t) {
             mesh.normals.push_back({n[0], n[1], n[2]});
         });
+    if (!s.joints.empty()) skin(mesh, s, selection.vertices);
+    if (is_flat) mesh.normals = flat_normals(mesh.positions);
     if (attributes.contains("COLOR_0")) mesh.colors = read_colors(s, selection.vertices);
     if (s.material.texcoord_set) mesh.texcoords = read_texcoords(s, selection.vertices);
     return mesh;

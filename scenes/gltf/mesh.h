@@ -12,6 +12,7 @@
 
 #include "scenes/gltf/accessor.h"
 #include "scenes/gltf/material.h"
+#include "scenes/gltf/pose.h"
 
 namespace strata::scenes {
 
@@ -23,6 +24,9 @@ struct PrimitiveSource {
     Budget& budget;
     Warnings& warnings;
     pipeline::ColorSpace color_space;
+    JsonAt json;  // the primitive
+    const Pose& pose;
+    std::span<const pipeline::Matrix> joints;  // of the pose's skin; empty: not skinned
 };
 
 // Empty if the primitive has no triangle.

@@ -8,13 +8,10 @@ void erase(Json& object, std::initializer_list<const char*> keys) {
     for (const char* key : keys) object.erase(key);
 }
 
-// Erases all of a material except name, alpha mode, cutoff, doubleSided, base colour factor and texture.
+// Erases all of a material except name, alpha mode, cutoff and doubleSided; its colour: base_color.h.
 void reduce_material(Json& material) {
-    erase(material, {"extras", "extensions", "normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor"});
-    if (!material.contains("pbrMetallicRoughness")) return;
-    Json& pbr = material["pbrMetallicRoughness"];
-    erase(pbr, {"extras", "extensions", "metallicFactor", "roughnessFactor", "metallicRoughnessTexture"});
-    if (pbr.contains("baseColorTexture")) erase(pbr["baseColorTexture"], {"extras", "extensions"});
+    erase(material, {"extras", "extensions", "normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor",
+                     "pbrMetallicRoughness"});
 }
 
 // A copy with the kinds and members that the scene reads. Buffers and images are left out, so that tinygltf

@@ -11,7 +11,6 @@ namespace strata::scenes {
 namespace {
 
 using pipeline::Matrix;
-Vec3d column(const Matrix& m, std::size_t c) { return {m[c].x, m[c].y, m[c].z}; }
 
 // The vector divided by its length; InputError if that is 0 or not finite.
 Vec3d unit(const Vec3d& v, const FileLocation& location) {
@@ -51,21 +50,47 @@ Matrix local_transform(const tinygltf::Node& node) noexcept {
                         values_or<3>(node.scale, {1, 1, 1}));
 }
 
-std::vector<PlacedNode> place_nodes(const tinygltf::Model& model, std::span<const int> roots, const std::string& file) {
+std::optional<JsonAt> visibility_of(const JsonAt& node) {
+    const auto extensions = node.find("extensions");
+    const auto visibility = extensions ? extensions->find("KHR_node_visibility") : std::nullopt;
+    return visibility ? visibility->find("visible") : std::nullopt;
+}
+
+std::vector<int> root_nodes(const tinygltf::Model& model) {
+    std::vector<char> is_child(model.nodes.size(), 0);
+    for (const tinygltf::Node& node : model.nodes)
+        for (const int child : node.children) is_child[static_cast<std::size_t>(child)] = 1;
+    std::vector<int> roots;
+    for (std::size_t i = 0; i < is_child.size(); ++i)
+        if (is_child[i] == 0) roots.push_back(static_cast<int>(i));
+    return roots;
+}
+
+std::vector<Matrix> world_transforms(const Document& document, const tinygltf::Model& model) {
+    std::vector<Matrix> worlds(model.nodes.size());
+    for (const PlacedNode& placed : place_nodes(document, model, root_nodes(model)))
+        worlds[static_cast<std::size_t>(placed.node)] = placed.world;
+    return worlds;
+}
+
+std::vector<PlacedNode> place_nodes(const Document& document, const tinygltf::Model& model,
+                                    std::span<const int> roots) {
     std::vector<PlacedNode> placed, waiting;
     // A stack returns the last element first, so roots and children are pushed in reverse to come out in the file's
     // order.
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root) waiting.push_back({*root, pipeline::identity});
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root) waiting.push_back({.node = *root});
     while (!waiting.empty()) {
-        PlacedNode next = waiting.back();  // `world` is still the parent's
+        PlacedNode next = waiting.back();  // `world` and `is_hidden` are still the parent's
         waiting.pop_back();
         const tinygltf::Node& node = model.nodes[static_cast<std::size_t>(next.node)];
         next.world = pipeline::product(next.world, local_transform(node));
         if (!std::ranges::all_of(entries_of(next.world), [](double v) { return std::isfinite(v); }))
-            FileLocation{file, "/nodes/" + std::to_string(next.node)}.fail("VALUE_NOT_IN_RANGE",
-                                                                           "a finite world transform", "an overflow");
+            FileLocation{document.file, "/nodes/" + std::to_string(next.node)}.fail(
+                "VALUE_NOT_IN_RANGE", "a finite world transform", "an overflow");
+        const auto visible = visibility_of(document.at("nodes", static_cast<std::size_t>(next.node)));
+        next.is_hidden |= visible && !visible->boolean();
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-            waiting.push_back({*child, next.world});
+            waiting.push_back({*child, next.world, next.is_hidden});
         placed.push_back(next);
     }
     return placed;

@@ -3,10 +3,12 @@
 // Rule     Binary64. local = matrix, or translation * rotation * scale; world = parent * local, each element
 //          ((a0 b0 + a1 b1) + a2 b2) + a3 b3. A mirrored matrix is unchanged: the pipeline uses the determinant's sign.
 //          A camera looks along -z of its world frame; scale, shear and mirroring of that frame are ignored.
-// Source   glTF 2.0, 3.5.3 (transformations), 3.10 (cameras).
+//          KHR_node_visibility: a hidden node hides all below it, but not their cameras.
+// Source   glTF 2.0, 3.5.3 (transformations), 3.10 (cameras); KHR_node_visibility.
 // Tests    tests/scenes/gltf/gltf_node_test.cpp
 #pragma once
 #include <array>
+#include <optional>
 #include <span>
 
 #include "scenes/gltf/model.h"
@@ -14,14 +16,28 @@
 
 namespace strata::scenes {
 
+// An axis of a transform, or its origin (3).
+[[nodiscard]] inline Vec3d column(const pipeline::Matrix& m, std::size_t c) noexcept {
+    return {m[c].x, m[c].y, m[c].z};
+}
+
 struct PlacedNode {
     int node = 0;
     pipeline::Matrix world = pipeline::identity;
+    bool is_hidden = false;  // by itself or a parent (KHR_node_visibility)
 };
 
 // Depth first, parents before children, in the file's order. Iterative, so any depth is possible.
-[[nodiscard]] std::vector<PlacedNode> place_nodes(const tinygltf::Model& model, std::span<const int> roots,
-                                                  const std::string& file);
+[[nodiscard]] std::vector<PlacedNode> place_nodes(const Document& document, const tinygltf::Model& model,
+                                                  std::span<const int> roots);
+
+// The nodes that have no parent.
+[[nodiscard]] std::vector<int> root_nodes(const tinygltf::Model& model);
+// Of every node of the file, in its order.
+[[nodiscard]] std::vector<pipeline::Matrix> world_transforms(const Document& document, const tinygltf::Model& model);
+
+// The value of KHR_node_visibility; empty if a node does not have it.
+[[nodiscard]] std::optional<JsonAt> visibility_of(const JsonAt& node);
 
 // translation * rotation * scale, the rotation a quaternion x y z w.
 [[nodiscard]] pipeline::Matrix transform_of(const std::array<double, 3>& translation,

@@ -59,6 +59,11 @@ class ModelFolder {
         std::error_code ignored;
         return fs::is_regular_file(found.path, ignored) ? std::optional(found.path.string()) : std::nullopt;
     }
+    // The name of a file that differs from `name` in letter case alone, or "".
+    [[nodiscard]] std::string in_other_case(std::string name) const {
+        std::ranges::replace(name, '\\', '/');
+        return name_in_other_case(folder_, name);
+    }
 
   private:
     // Assimp's meshes, next to ours and to the file's text, take up to 10 bytes for a byte of the file (STL).
@@ -88,6 +93,10 @@ class ModelScene {
         // Assimp reports a failed allocation, which large counts in a file cause, by the name of its exception.
         if (model.failure == "std::bad_alloc")
             throw InputError(path_, "size", "a model that fits into memory", "an allocation that failed in Assimp");
+        if (model.failure.ends_with("contains no faces"))
+            throw InputError(
+                path_, "content", "triangles or polygons",
+                "points or lines without faces, which are not drawn: a surface has to be made of them first");
         if (!model.failure.empty())
             throw InputError(path_, "content", "a model that Assimp can read", in_quotes(model.failure));
         scene_.name = name;
@@ -146,8 +155,10 @@ class ModelScene {
         int& number = textures_[name] = -1;
         const auto file = folder_.inside(name);
         if (!file) {
+            const std::string other = folder_.in_other_case(name);
             scene_.warnings.push_back("texture " + in_quotes(name) +
-                                      " is not drawn: no file of that name in the model's folder");
+                                      " is not drawn: no file of that name in the model's folder" +
+                                      (other.empty() ? "" : ", but " + in_quotes(other) + ": letter case differs"));
             return number;
         }
         const std::vector<std::byte> bytes = folder_.read(name);

@@ -92,11 +92,20 @@ fs::path relative_path(std::string_view uri, const FileLocation& location) {
     if (uri.empty() || uri.find_first_of("?#") != uri.npos) location.fail("INVALID_URI", inside, in_quotes(uri));
     // The checks below use the decoded text: "%2e%2e" must not pass as a name.
     const std::string decoded = percent_decoded(uri, location);
-    const auto is_forbidden = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == '\\' || c == 0x7f; };
+    if (decoded.find('\\') != decoded.npos)
+        location.fail("INVALID_URI", "a uri with / between folders and file, as in every glTF file",
+                      in_quotes(uri) + ", which has a backslash");
+    const auto is_forbidden = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
     if (std::any_of(decoded.begin(), decoded.end(), is_forbidden)) location.fail("INVALID_URI", inside, in_quotes(uri));
     const fs::path path{decoded};
     if (leaves_by_name(path)) location.fail("NON_RELATIVE_URI", inside, in_quotes(uri));
     return path;
+}
+
+// A uri without a file, and the file whose name differs from it in letter case alone: other systems find that one.
+std::string missing(std::string_view uri, const fs::path& folder, const fs::path& relative) {
+    const std::string other = name_in_other_case(folder, relative);
+    return in_quotes(uri) + (other.empty() ? "" : ", which is " + in_quotes(other) + " there: letter case differs");
 }
 
 }  // namespace
@@ -130,7 +139,7 @@ Resource read_uri(std::string_view uri, const std::optional<fs::path>& folder, c
         location.fail("FILE_NOT_FOUND", "a data: uri, because a scene in memory has no folder", in_quotes(uri));
     const InsideFolder found = inside_folder(*folder, relative);
     if (found.status == InsideFolder::PathStatus::nothing)
-        location.fail("FILE_NOT_FOUND", "a file in the scene's folder", in_quotes(uri));
+        location.fail("FILE_NOT_FOUND", "a file in the scene's folder", missing(uri, *folder, relative));
     if (found.status != InsideFolder::PathStatus::inside)
         location.fail("NON_RELATIVE_URI", "a file in the scene's folder", "a link to a file outside of it");
     return {"", read_file(found.path, location)};
