@@ -16,6 +16,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <limits>
 
 #include "rasterizer/base/numerics.h"
 
@@ -40,9 +41,15 @@ namespace nv20 {
     return (std::bit_cast<std::uint32_t>(v) & 0x7f800000u) == 0 ? 0.0f : v;
 }
 
-// a b; +0 if a factor is zero or denormal, even if the other is infinite or NaN (numbers.md 4.2).
+[[nodiscard]] constexpr bool is_nan(float v) noexcept {
+    return (std::bit_cast<std::uint32_t>(v) & 0x7fffffffu) > 0x7f800000u;
+}
+
+// a b; +0 if a factor is zero or denormal, even if the other is infinite or NaN; the NaN of sign + if one is NaN, of
+// either sign (numbers.md 4.2).
 [[nodiscard]] constexpr float multiply(float a, float b) noexcept {
     if (flushed(a) == 0.0f || flushed(b) == 0.0f) return 0.0f;
+    if (is_nan(a) || is_nan(b)) return std::numeric_limits<float>::quiet_NaN();
     return is_finite(a) && is_finite(b) ? flushed(truncate_to_binary32(double{a} * double{b})) : a * b;
 }
 

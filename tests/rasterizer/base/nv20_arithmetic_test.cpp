@@ -66,6 +66,12 @@ TEST_CASE("NV20 truncates products and flushes denormals and 0 times anything is
     CHECK(same(nv20::multiply(0.0f, infinity), 0.0f));
     CHECK(same(nv20::multiply(-0.0f, std::numeric_limits<float>::quiet_NaN()), 0.0f));
     CHECK(same(nv20::multiply(-2.0f, infinity), -infinity));
+    // The NaN of a product has sign +, whatever the operands' signs.
+    for (const float other : {1.0f, -1.0f, infinity, -infinity, std::bit_cast<float>(0xffc00000u)})
+        for (const std::uint32_t nan : {0x7fc00000u, 0xffc00000u, 0x7f800001u, 0xff800001u}) {
+            CHECK(same(nv20::multiply(std::bit_cast<float>(nan), other), std::bit_cast<float>(0x7fc00000u)));
+            CHECK(same(nv20::multiply(other, std::bit_cast<float>(nan)), std::bit_cast<float>(0x7fc00000u)));
+        }
 }
 
 TEST_CASE("NV20 aligns every addend to the largest exponent plus two with seven low bits and adds once and truncates",

@@ -201,6 +201,23 @@ void add_texture_suites(Archive& archive) {
         6);
 }
 
+void add_vertex_suites(Archive& archive) {
+    const Names floats{"0_1",      "-1_1",     "-8_1",       "0_8",          "-NaNq_NaNq", "-NaNs_NaNs",
+                       "-INF_INF", "-Max_Max", "-MinN_MinN", "-MaxSN_MaxSN", "-Min_Min"};
+    add(archive, Outcome::drawn, "Attrib_float", floats, 11);
+    const Names attributes{"w", "n", "d", "s", "fc", "ps", "bd", "bs", "t0", "t1", "t2", "t3"},
+        endings{"0.1_0.0_1.0_1.0-da", "0.8_0.0_0.0_1.0-ib", "0.5_0.0_0.0_1.0-ia", "0.2_0.0_0.6_1.0-ie"};
+    add(archive, Outcome::drawn, "Attrib_carryover", with(with({"T-"}, attributes), endings), 48);
+    add(archive, Outcome::not_modelled, "Attrib_carryover", with(with({"L-"}, attributes), endings), 48);
+    Names swizzles{"Control", "ControlNA"};
+    for (int n = 0; n < 17; ++n) swizzles.push_back(fmt::format("Mov{:02}", n));
+    for (int n = 0; n < 10; ++n) swizzles.push_back(fmt::format("NAMov{:02}", n));
+    add(archive, Outcome::drawn, "Vertex_shader_swizzle_tests", swizzles, 29);
+    add(archive, Outcome::drawn, "SetVertexData",
+        with({"SET_VERTEX_DATA"}, {"2F_M", "4F_M", "2S-0001", "2S-7FFF", "4S_M-0001", "4S_M-7FFF"}), 6);
+    add(archive, Outcome::not_modelled, "SetVertexData", {"SET_VERTEX_DATA4UB"}, 1);
+}
+
 }  // namespace
 
 Archive archive_names() {
@@ -211,6 +228,7 @@ Archive archive_names() {
     add_geometry_suites(archive);
     add_range_suites(archive);
     add_texture_suites(archive);
+    add_vertex_suites(archive);
     return archive;
 }
 

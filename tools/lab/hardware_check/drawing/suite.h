@@ -11,6 +11,8 @@ inline const Drawing unknown_name{std::nullopt, std::string{unknown_name_reason}
 // Refused if the profile lacks what the picture needs.
 Drawing draw_alpha_func(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_antialiasing(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_attrib_carryover(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_attrib_float(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_blend_surface(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_blend_tests(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_clear(std::string_view name, const pipeline::DeviceProfile& profile);
@@ -36,6 +38,7 @@ Drawing draw_material_color_source(std::string_view name, const pipeline::Device
 Drawing draw_pixel_shader(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_pixel_shader_with(std::string_view name, const pipeline::DeviceProfile& profile,
                                const std::string& textures);
+Drawing draw_set_vertex_data(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_shade_model(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_specular(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_stencil(std::string_view name, const pipeline::DeviceProfile& profile);
@@ -45,6 +48,7 @@ Drawing draw_texture_perspective(std::string_view name, const pipeline::DevicePr
 Drawing draw_texture_shadow_comparator(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_three_d_primitive(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_vertex_shader_rounding(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_vertex_swizzle(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_viewport(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_w_buffering(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_w_param(std::string_view name, const pipeline::DeviceProfile& profile);

@@ -1,6 +1,5 @@
 #include "tools/lab/hardware_check/drawing/textured.h"
 
-#include "tools/lab/hardware_check/drawing/fixed_pipeline.h"
 #include "tools/lab/hardware_check/drawing/picture.h"
 
 namespace strata::hardware_check {
@@ -44,11 +43,10 @@ pipeline::Texture checker(int texels, int cell, Argb first, Argb second) {
     return as_texture(image);
 }
 
-void draw_checkerboard(pipeline::Surface& surface, int cell, Argb first, Argb second) {
+void draw_checkerboard(pipeline::Surface& surface, int cell, Argb first, Argb second, float offset) {
     constexpr int texels = 256;
     pipeline::Texture board = checker(texels, cell, first, second);
-    constexpr float left = viewport_offset, top = viewport_offset;
-    TriangleSoup soup = box({left, top, left + picture_width, top + picture_height}, 0xffffffff);
+    TriangleSoup soup = box({offset, offset, offset + picture_width, offset + picture_height}, 0xffffffff);
     // The offset moves the corners, so the comparison with 1 distinguishes the left and upper sides from the others.
     for (ClipVertex& v : soup.vertices) v.texcoord = {v.x < 1 ? 0.0f : float{texels}, v.y < 1 ? 0.0f : float{texels}};
     pipeline::DrawState state{.blend = pipeline::blend_mode::over};

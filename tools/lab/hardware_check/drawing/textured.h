@@ -5,7 +5,7 @@
 // Source   rasterizer/reference/chip-depth.md 6 and 7, rasterizer/reference/chip-geometry.md 4.
 #pragma once
 #include "pipeline/region/fragment_path.h"
-#include "tools/lab/hardware_check/drawing/shapes.h"
+#include "tools/lab/hardware_check/drawing/fixed_pipeline.h"
 
 namespace strata::hardware_check {
 
@@ -24,8 +24,8 @@ struct TexturedCorner {
 // filtering.
 [[nodiscard]] pipeline::Texture checker(int texels, int cell, Argb first, Argb second);
 
-// Draws a checkerboard of 256 x 256 texels over the whole window, moved by the fixed pipeline's viewport offset.
-void draw_checkerboard(pipeline::Surface& surface, int cell, Argb first, Argb second);
+// Draws a checkerboard of 256 x 256 texels over the whole window, moved by an offset: 0 for a vertex program.
+void draw_checkerboard(pipeline::Surface& surface, int cell, Argb first, Argb second, float offset = viewport_offset);
 
 // A rectangle-texture stage: samples at (s/q, t/q) in unnormalized texel coordinates.
 [[nodiscard]] pipeline::ShaderStage rectangle_lookup(const pipeline::BoundTexture& texture);
