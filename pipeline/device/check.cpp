@@ -108,17 +108,6 @@ std::optional<Refusal> check(const DeviceProfile& profile, std::span<const Featu
     return std::nullopt;
 }
 
-std::optional<Refusal> check(const DeviceProfile&, UnsupportedState state) {
-    switch (state) {
-        case UnsupportedState::fog: return Refusal{"fog", "EXT_fog_coord", "disable it: no algorithm here needs it"};
-        case UnsupportedState::color_sum:
-            return Refusal{"colour sum", "EXT_secondary_color", "disable it: no algorithm here needs it"};
-        case UnsupportedState::dither: return Refusal{"dithering", "", "disable it: no algorithm here needs it"};
-        case UnsupportedState::logic_op: break;
-    }
-    return Refusal{"logic operations", "EXT_blend_logic_op", "disable it: no algorithm here needs it"};
-}
-
 std::optional<Refusal> check(const DeviceProfile& profile, DepthFormat format) {
     switch (format) {
         case DepthFormat::d16: return check(profile, Feature::d16);

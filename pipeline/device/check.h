@@ -2,8 +2,7 @@
 // rejected with the feature's name, before the first fragment.
 //
 // Rule     Every feature has one rule in check.cpp: description, extension, and the profiles that have it. A Refusal
-//          names those profiles. Fixed-function state that no algorithm here needs (fog, colour sum, dither, logic op)
-//          is rejected on every profile.
+//          names those profiles.
 // Source   pipeline/reference/devices.md 5 to 7, 9 and 10.
 // Tests    tests/pipeline/device/check_test.cpp
 #pragma once
@@ -42,9 +41,6 @@ enum class Feature : std::uint8_t {
     unordered_access,
 };
 
-// Fixed-function state that no profile has (fragment-stages.md 12).
-enum class UnsupportedState : std::uint8_t { fog, color_sum, dither, logic_op };
-
 struct Refusal {
     // The description after "has no": "independent blend equations".
     std::string feature;
@@ -76,7 +72,6 @@ struct Refused : std::runtime_error {
 [[nodiscard]] std::optional<Refusal> check(const DeviceProfile& profile, std::span<const Feature> needed);
 
 // Single pieces of state. A disabled stencil test or blend is never rejected.
-[[nodiscard]] std::optional<Refusal> check(const DeviceProfile& profile, UnsupportedState state);
 [[nodiscard]] std::optional<Refusal> check(const DeviceProfile& profile, DepthFormat format);
 [[nodiscard]] std::optional<Refusal> check(const DeviceProfile& profile, Format target);
 [[nodiscard]] std::optional<Refusal> check(const DeviceProfile& profile, const StencilTest& state);

@@ -118,17 +118,6 @@ TEST_CASE("sizes and samples and texture units beyond the device's are rejected 
     CHECK(check_texture_units(device("geforce3"), 5));
 }
 
-TEST_CASE("contemporary state that no algorithm needs is rejected by name on every profile") {
-    for (const DeviceProfile& profile : builtin_profiles()) {
-        CHECK(check(profile, UnsupportedState::fog)->feature == "fog");
-        CHECK(check(profile, UnsupportedState::color_sum)->feature == "colour sum");
-        CHECK(check(profile, UnsupportedState::dither)->feature == "dithering");
-        CHECK(check(profile, UnsupportedState::logic_op)->feature == "logic operations");
-    }
-    CHECK(checked("ideal", UnsupportedState::dither) ==
-          "profile ideal has no dithering; disable it: no algorithm here needs it");
-}
-
 TEST_CASE("only texture shaders replace a depth and only programs write r/q and every device compares it") {
     using strata::rasterizer::DepthPath;
     for (const char* profile : {"geforce3", "geforce8", "ideal"}) {

@@ -190,14 +190,3 @@ TEST_CASE("several targets are checked one by one and only those that blend must
     CHECK_FALSE(
         check(device_named("geforce8_dx101"), std::span<const Blend>{std::vector{blend_mode::max, other_alpha}}));
 }
-
-TEST_CASE("contemporary state is rejected everywhere with its extension and the advice to disable it") {
-    const std::string advice = "disable it: no algorithm here needs it";
-    for (const std::string_view name : device_names) {
-        const DeviceProfile& p = device_named(name);
-        CHECK(*check(p, UnsupportedState::fog) == Refusal{"fog", "EXT_fog_coord", advice});
-        CHECK(*check(p, UnsupportedState::color_sum) == Refusal{"colour sum", "EXT_secondary_color", advice});
-        CHECK(*check(p, UnsupportedState::dither) == Refusal{"dithering", "", advice});
-        CHECK(*check(p, UnsupportedState::logic_op) == Refusal{"logic operations", "EXT_blend_logic_op", advice});
-    }
-}
