@@ -6,7 +6,7 @@
 #include "rasterizer/base/input_error.h"
 #include "tools/oracle/diagnosis/diagnosis_report.h"
 #include "tools/oracle/emulations/catalogue.h"
-#include "tools/oracle/judge/diagnose_picture.h"
+#include "tools/oracle/judge/picture_diagnosis.h"
 
 namespace strata {
 inline namespace v0_1 {
@@ -21,11 +21,7 @@ std::vector<std::string> names_of_all(const std::vector<const oracle::Mistake*>&
 
 }  // namespace
 
-bool Diagnosed::is_right() const noexcept {
-    using enum oracle::Conclusion;
-    const oracle::Conclusion found = diagnosis.conclusion;
-    return found == right || found == other_options || found == right_structure;
-}
+bool Diagnosed::is_right() const noexcept { return judgement.is_right; }
 
 std::string Diagnosed::verdict() const { return std::string{oracle::name(diagnosis.conclusion)}; }
 
@@ -39,32 +35,39 @@ std::vector<std::string> Diagnosed::alike() const {
     return names_of_all(diagnosis.findings.at(0).alike);
 }
 
-std::string Diagnosed::text() const { return oracle::to_text(diagnosis, comparison); }
-std::string Diagnosed::json() const { return oracle::to_json(diagnosis, comparison); }
+std::string Diagnosed::sentence() const { return judgement.sentence; }
+std::string Diagnosed::text() const { return judgement.text; }
+std::string Diagnosed::json() const { return judgement.json; }
+
+namespace {
+
+Judgement judged(const Scene& scene, const oracle::AskedPicture& asked, const DeviceProfile& profile,
+                 RenderOptions options, oracle::Effort effort) {
+    const oracle::TargetImage& size = asked.candidate.targets[0];
+    options.width = size.width;
+    options.height = size.height;
+    const View view = scene.view(options.width, options.height, options.raster);
+    Judgement found = oracle::judge({scene.list(), view, profile, options, scene.space()}, asked, effort);
+    found.layers.reset();  // it refers to the view
+    return found;
+}
+
+}  // namespace
 
 Diagnosed diagnose(const Scene& scene, const Picture& candidate, const Algorithm& algorithm,
                    const DeviceProfile& profile, const RenderOptions& options, const Tolerances& tolerances) {
     if (candidate.targets.empty()) throw InputError("candidate", "targets", "at least one", "none");
-    RenderOptions of_candidate = options;
-    of_candidate.width = candidate.targets[0].width;
-    of_candidate.height = candidate.targets[0].height;
-    const View view = scene.view(of_candidate.width, of_candidate.height, of_candidate.raster);
-    auto found = oracle::diagnose_picture({.input = {scene.list(), view, profile, of_candidate, scene.space()},
-                                           .algorithm = algorithm,
-                                           .candidate = candidate,
-                                           .tolerances = tolerances});
-    return {std::move(found.found), std::move(found.comparison), std::move(found.options)};
+    Judgement found = judged(scene, {.candidate = candidate, .algorithm = &algorithm, .tolerances = tolerances},
+                             profile, options, oracle::Effort::all);
+    Diagnosed result{.diagnosis = found.emulations->found, .comparison = found.emulations->comparison};
+    result.judgement = std::move(found);
+    return result;
 }
 
 Judgement judge(const Scene& scene, const Picture& candidate, const DeviceProfile& profile,
-                const RenderOptions& options) {
-    const auto colors = std::ranges::find(candidate.targets, oracle::Meaning::color, &oracle::TargetImage::meaning);
-    if (colors == candidate.targets.end()) throw InputError("candidate", "targets", "colours", "none");
-    RenderOptions of_candidate = options;
-    of_candidate.width = colors->width;
-    of_candidate.height = colors->height;
-    const View view = scene.view(of_candidate.width, of_candidate.height, of_candidate.raster);
-    return oracle::judge({scene.list(), view, profile, of_candidate, scene.space()}, {*colors});
+                const RenderOptions& options, const Algorithm* algorithm) {
+    if (candidate.targets.empty()) throw InputError("candidate", "targets", "colours", "none");
+    return judged(scene, {.candidate = candidate, .algorithm = algorithm}, profile, options, oracle::Effort::single);
 }
 
 }  // namespace v0_1

@@ -38,7 +38,7 @@ TEST_CASE("the library names the mistake of a picture and accepts a correct pict
     const auto found = strata::diagnose(scene, turned, dual, profile, frame);
     CHECK_FALSE(found.is_right());
     CHECK(found.mistakes() == std::vector<std::string>{"red_for_blue"});
-    CHECK_THAT(found.text(), Catch::StartsWith("100 % of the pixels are those of: ") && Contains("(red_for_blue)"));
+    CHECK_THAT(found.text(), Catch::StartsWith("wrong: every pixel is that of: ") && Contains("(red_for_blue)"));
     CHECK_THAT(found.json(), Contains("\"verdict\": \"one_mistake\""));
     CHECK(found.comparison.differing == found.diagnosis.differing);
 

@@ -4,6 +4,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "tools/oracle/emulations/catalogue.h"
+#include "tools/oracle/emulations/mistake_renderer.h"
+
 using Catch::Contains;
 using Catch::StartsWith;
 
@@ -79,6 +82,37 @@ TEST_CASE("diagnose says of opaque surfaces drawn last that they cover the layer
     INFO(found.text());
     CHECK_FALSE(found.is_right());
     CHECK_THAT(found.text(), Contains("opaque surfaces cover the layers before them"));
+}
+
+// Right pictures, and pictures with a mistake of the catalogue, by the emulations' own renderer.
+TEST_CASE("judge and diagnose give one state and one first sentence about forty pictures", "[exhaustive]") {
+    const auto profile = strata::profile("geforce8");
+    strata::RenderOptions frame{.width = 24, .height = 20, .background = {0.2f, 0.3f, 0.5f, 1}};
+    int pictures = 0;
+    std::string unlike;
+    for (const char* name : {"showroom", "random:seed=7,triangles=60"})
+        for (const char* ran : {"front_to_back", "dual"}) {
+            const strata::Scene scene{name};
+            const strata::Algorithm& algorithm = strata::algorithm(ran);
+            const auto view = scene.view(frame.width, frame.height, frame.raster);
+            const strata::oracle::MistakeRenderer renderer{{scene.list(), view, profile, frame, scene.space()},
+                                                           algorithm};
+            const auto look_at = [&](const strata::Picture& picture, std::string_view what) {
+                const auto judged = strata::judge(scene, picture, profile, frame, &algorithm);
+                const auto diagnosed = strata::diagnose(scene, picture, algorithm, profile, frame).judgement;
+                ++pictures;
+                if (judged.state != diagnosed.state || judged.sentence != diagnosed.sentence)
+                    unlike += std::string{what} + ": " + judged.sentence + "\n    but " + diagnosed.sentence + '\n';
+                return judged;
+            };
+            CHECK(look_at(renderer.right(), "right").is_right);
+            const auto mistakes = strata::oracle::catalogue();
+            for (std::size_t i = 3; i < mistakes.size(); i += 10)
+                if (const auto picture = renderer.with(mistakes[i]))
+                    static_cast<void>(look_at(*picture, mistakes[i].name));
+        }
+    CHECK(unlike == "");
+    CHECK(pictures >= 40);
 }
 
 TEST_CASE("the matcher of a scene accepts a right picture and its message has the verdict's sentence") {

@@ -4,8 +4,8 @@
 // Rule     `judge` is the verdict of `strata compare`: a picture is right if a port that composites the right fragments
 //          in the right order can make it, whatever its formats and rounding. `diagnose` renders the scene with each
 //          known mistake at the candidate's size as well; mistakes are ranked by the number of pixels that equal the
-//          candidate's (tools/oracle/judge/diagnose_picture.h). "unknown_mistake" is a possible verdict. A picture that
-//          `judge` calls right has no mistake.
+//          candidate's. "unknown_mistake" is a possible verdict. Both are efforts of one judge and do not contradict
+//          each other (tools/oracle/judge/judge.h).
 // Cost     `judge`: milliseconds to seconds. `diagnose`: about a hundred pictures of the scene, and up to as many again
 //          for pairs of mistakes: only for small scenes.
 // Tests    tests/tools/library/diagnose_test.cpp, tests/tools/library/judge_test.cpp
@@ -25,10 +25,9 @@ namespace strata {
 inline namespace v0_1 {
 
 struct Diagnosed {
-    oracle::Diagnosis diagnosis{};
-    Comparison comparison{};  // of the right picture with the candidate
-
-    std::shared_ptr<const std::vector<oracle::Mistake>> options{};  // which findings may point to
+    oracle::Judgement judgement{};
+    oracle::Diagnosis diagnosis{};  // of the emulations
+    Comparison comparison{};        // of the right picture with the candidate
 
     // True for "right", "other_options" and "right_structure".
     [[nodiscard]] bool is_right() const noexcept;
@@ -38,18 +37,19 @@ struct Diagnosed {
     [[nodiscard]] std::vector<std::string> mistakes() const;
     // Other mistakes with the same picture of this scene.
     [[nodiscard]] std::vector<std::string> alike() const;
+    [[nodiscard]] std::string sentence() const;
     [[nodiscard]] std::string text() const;  // as `strata diagnose` prints it
     [[nodiscard]] std::string json() const;
 };
 
-// is_right, is_undecided, sentence, leads, text, json.
+// state, is_right, is_undecided, sentence, mistakes, forgotten, leads, text, json.
 using oracle::Judgement;
 
-// The verdict on a picture, whatever exact algorithm made it. The candidate's size replaces that of `options`.
+// The verdict on a picture of the algorithm, or of any exact one. The candidate's size replaces that of `options`.
 // Throws InputError for a candidate without colours, and Refused if the device lacks
 // a feature.
 [[nodiscard]] Judgement judge(const Scene& scene, const Picture& candidate, const DeviceProfile& profile,
-                              const RenderOptions& options = {});
+                              const RenderOptions& options = {}, const Algorithm* algorithm = nullptr);
 
 // The candidate's size replaces that of `options`. Throws InputError for a candidate
 // without a target, and Refused if the device lacks a feature.

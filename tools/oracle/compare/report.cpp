@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scenes/printable.h"
+#include "tools/oracle/compare/report_json.h"
 
 namespace strata::oracle {
 
@@ -78,7 +79,7 @@ std::string to_text(const Comparison& c) {
     return text;
 }
 
-std::string to_json(const Comparison& c) {
+ordered_json json_of(const Comparison& c) {
     ordered_json document{{"equal", c.equal},   {"accepted", c.accepted},   {"width", c.width},
                           {"height", c.height}, {"differing", c.differing}, {"targets", ordered_json::array()}};
     for (const TargetReport& target : c.targets) {
@@ -117,8 +118,14 @@ std::string to_json(const Comparison& c) {
         document["spent"].push_back({{"budget", budget.name}, {"pixels", budget.pixels}, {"allowed", budget.allowed}});
     document["notes"] = c.notes;
     document["not_compared"] = c.not_compared;
+    return document;
+}
+
+std::string text_of(const ordered_json& document) {
     return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }
+
+std::string to_json(const Comparison& c) { return text_of(json_of(c)); }
 
 std::string failure_of(const KindReport& kind) {
     return fmt::format("{} pixels, first at {},{}{}", kind.beyond, kind.first_x, kind.first_y,

@@ -38,7 +38,7 @@ enum class Conclusion : std::uint8_t {
     other_options,  // a correct run with other options
     one_mistake,
     two_mistakes,
-    right_structure,  // no image equals the candidate's, but its layers are correct except for rounding
+    right_structure,  // set by a judge: no image equals the candidate's, but its layers are correct except for rounding
     unknown_mistake   // the best finding leaves pixels unexplained
 };
 
@@ -54,11 +54,6 @@ struct Diagnosis {
     bool passes_contradict = false;               // the image equals the first finding's, but no known run's passes do
     std::optional<PassAgreement> right_passes{};  // of the correct run
     std::vector<Finding> findings{};              // the best first; never empty
-    std::string structure{};  // what the layers show if no image equals the candidate's; empty: not examined
-    std::string structure_json{};
-    std::vector<std::string> by_layers{};  // mistakes of the layers that give the same picture as the first finding
-    std::vector<std::string> forgotten{};  // which option of the view looks forgotten
-    std::vector<std::string> leads{};      // of the layers: what explains some of the pixels that differ
     const SuiteScene* distinguishing_scene =
         nullptr;  // a scene that distinguishes the first finding from those alike, or the leads
     int tried = 0, hidden = 0, impossible = 0, pairs_tried = 0;

@@ -9,6 +9,7 @@
 
 #include "rasterizer/base/enum_values.h"
 #include "tools/oracle/compare/report.h"
+#include "tools/oracle/compare/report_json.h"
 #include "tools/oracle/emulations/catalogue.h"
 #include "tools/oracle/suite/suite.h"
 
@@ -31,30 +32,6 @@ std::string percent(std::uint64_t part, std::uint64_t all) {
 std::string far_of(const Diagnosis& d) {
     if (d.differing_far == 0) return ", all of them by one code";
     return d.differing_far == d.differing ? "" : fmt::format(", {} of them by more than one code", d.differing_far);
-}
-
-std::string first_line(const Diagnosis& d) {
-    const Finding& best = d.findings.front();
-    if (!d.structure.empty()) return d.structure;
-    if (d.passes_contradict)
-        return fmt::format(
-            "none that is known: the picture is that of: {}; but no known renderer that draws it has these passes\n",
-            description_of(best.mistakes));
-    if (d.conclusion == Conclusion::unknown_mistake && d.is_blank)
-        return "none that is known: the picture has one colour everywhere: nothing was drawn, or the picture was never "
-               "written, and it does not show why\n";
-    if (d.conclusion == Conclusion::unknown_mistake)
-        return fmt::format(
-            "none that is known: {} of {} pixels differ from the right picture{}, and no known mistake, nor two of "
-            "them, "
-            "explains them all\n",
-            d.differing, d.pixels, far_of(d));
-    if (d.conclusion == Conclusion::other_options)
-        return fmt::format("right under other options: every pixel is{} that of: {}\n",
-                           d.is_nearly ? ", within one code," : "", description_of(best.mistakes));
-    return fmt::format("100 % of the pixels are{} those of: {}{}\n", d.is_nearly ? ", within one code," : "",
-                       description_of(best.mistakes),
-                       d.by_layers.empty() ? "" : "; or, by the layers: " + d.by_layers.front());
 }
 
 // Where a picture of several samples per pixel differs.
@@ -134,21 +111,38 @@ std::string description_of(const std::vector<const Mistake*>& mistakes) {
 
 std::string_view name(Conclusion conclusion) noexcept { return enum_name(conclusion); }
 
-std::string to_text(const Diagnosis& d, const Comparison& comparison) {
-    std::string text = first_line(d);
+std::string first_line(const Diagnosis& d) {
     const Finding& best = d.findings.front();
-    text += line_of_edges(d);
+    if (d.passes_contradict)
+        return fmt::format(
+            "none that is known: the picture is that of: {}; but no known renderer that draws it has these passes\n",
+            description_of(best.mistakes));
+    if (d.conclusion == Conclusion::unknown_mistake && d.is_blank)
+        return "none that is known: the picture has one colour everywhere: nothing was drawn, or the picture was never "
+               "written, and it does not show why\n";
+    if (d.conclusion == Conclusion::unknown_mistake)
+        return fmt::format(
+            "none that is known: {} of {} pixels differ from the right picture{}, and no known mistake, nor two of "
+            "them, "
+            "explains them all\n",
+            d.differing, d.pixels, far_of(d));
+    if (d.conclusion == Conclusion::other_options)
+        return fmt::format("right under other options: every pixel is{} that of: {}\n",
+                           d.is_nearly ? ", within one code," : "", description_of(best.mistakes));
+    return fmt::format("100 % of the pixels are{} those of: {}\n", d.is_nearly ? ", within one code," : "",
+                       description_of(best.mistakes));
+}
+
+std::string lines_of(const Diagnosis& d, const Comparison& comparison) {
+    std::string text = line_of_edges(d);
+    const Finding& best = d.findings.front();
     if (!best.mistakes.empty()) text += line_of(best.passes, "this emulation");
     text += line_of(d.right_passes, "a correct implementation");
     text += hint_of_tolerance(d, comparison) + hint_of_limit(d);
-    for (const std::string& sentence : d.forgotten) text += fmt::format("  {}\n", sentence);
-    for (const std::string& lead : d.leads) text += fmt::format("  lead: {}\n", lead);
     if (d.is_nearly) text += fmt::format("  to the last code: {} of the {} that differ\n", best.explained, d.differing);
     for (const Mistake* mistake : best.alike)
         text += fmt::format("  the same picture of this scene{}: {}\n", best.passes ? ", and passes alike" : "",
                             description_of(*mistake));
-    for (std::size_t i = 1; i < d.by_layers.size(); ++i)  // the first line has the first
-        text += fmt::format("  the same picture of this scene, by its layers: {}\n", d.by_layers[i]);
     const bool is_none = d.conclusion == Conclusion::unknown_mistake || d.conclusion == Conclusion::right_structure;
     if (d.distinguishing_scene != nullptr)
         text += fmt::format("  the suite's scene {} distinguishes {}: {}\n", d.distinguishing_scene->name,
@@ -164,7 +158,7 @@ std::string to_text(const Diagnosis& d, const Comparison& comparison) {
     return text;
 }
 
-std::string to_json(const Diagnosis& d, const Comparison& comparison) {
+ordered_json json_of(const Diagnosis& d, const Comparison& comparison) {
     ordered_json document{{"verdict", name(d.conclusion)},
                           {"pixels", d.pixels},
                           {"differing", d.differing},
@@ -177,14 +171,9 @@ std::string to_json(const Diagnosis& d, const Comparison& comparison) {
                           {"one_colour", d.is_blank},
                           {"passes_contradict", d.passes_contradict},
                           {"right_passes", as_json(d.right_passes)},
-                          {"structure", nullptr},
-                          {"by_layers", d.by_layers},
-                          {"forgotten", d.forgotten},
-                          {"leads", d.leads},
                           {"distinguishing_scene", nullptr},
                           {"findings", ordered_json::array()}};
     if (d.at_edges) document["differing_at_edges"] = *d.at_edges;
-    if (!d.structure_json.empty()) document["structure"] = ordered_json::parse(d.structure_json);
     if (d.distinguishing_scene != nullptr) document["distinguishing_scene"] = d.distinguishing_scene->name;
     for (const Finding& f : d.findings) {
         ordered_json descriptions = ordered_json::array();
@@ -198,8 +187,8 @@ std::string to_json(const Diagnosis& d, const Comparison& comparison) {
                                         {"passes", as_json(f.passes)},
                                         {"alike", names_of(f.alike)}});
     }
-    document["comparison"] = ordered_json::parse(to_json(comparison));
-    return document.dump(2) + '\n';
+    document["comparison"] = json_of(comparison);
+    return document;
 }
 
 }  // namespace strata::oracle

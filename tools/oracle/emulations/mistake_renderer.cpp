@@ -53,6 +53,14 @@ MistakeRenderer::MistakeRenderer(const peeling::FrameRequest& input, const peeli
     find_enough_passes();
 }
 
+MistakeRenderer MistakeRenderer::within(const rasterizer::Rect& part) const {
+    MistakeRenderer some{*this};
+    auto& scissor = some.input_.options.raster.scissor;
+    scissor = scissor ? rasterizer::intersection(*scissor, part) : part;
+    some.right_ = some.run(some.altered_run());
+    return some;
+}
+
 AlteredRun MistakeRenderer::altered_run() const {
     AlteredRun e{.list = &input_.list, .view = input_.view, .profile = input_.profile, .options = input_.options};
     e.algorithm = &algorithm_;

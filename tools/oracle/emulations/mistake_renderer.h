@@ -27,6 +27,9 @@ class MistakeRenderer {
     MistakeRenderer(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
                     Depths depths = Depths::left_out, int limit = 0);
 
+    // Of a part of the picture: pixels outside it are not drawn. Its runs have the passes of this renderer's.
+    [[nodiscard]] MistakeRenderer within(const rasterizer::Rect& part) const;
+
     [[nodiscard]] const Picture& right() const noexcept { return right_; }
     [[nodiscard]] const RightRun& right_run() const noexcept { return right_run_; }
     [[nodiscard]] pipeline::ColorSpace space() const noexcept { return input_.space; }

@@ -1,21 +1,41 @@
-// tools/oracle/judge/asked_picture.h - a picture of a scene on which a verdict is asked, and how to read it.
+// tools/oracle/judge/asked_picture.h - a picture of a scene on which a judgement is asked, and what is known of it.
 #pragma once
-#include "tools/oracle/picture/picture.h"
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/oracle/compare/compare.h"
 #include "tools/oracle/show_progress.h"
 
 namespace strata::peeling {
 struct Algorithm;
 }
+namespace strata::pipeline {
+struct DeviceProfile;
+}
 
 namespace strata::oracle {
 
+struct PassPicture;  // tools/oracle/emulations/pass_evidence.h
+
+// Everything that it refers to must outlive the call only.
 struct AskedPicture {
-    const TargetImage& colors;
-    bool is_form_stated = false;                    // the caller states whether colours are straight or premultiplied
-    bool has_alpha = true;                          // false: alpha is not compared
-    const peeling::Algorithm* algorithm = nullptr;  // that the port runs; null: not known
-    std::string camera = "the given camera";        // in words, for a hint that it may be another
-    ShowProgress progress{};
+    const Picture& candidate;                         // with colours
+    bool is_form_stated = false;                      // the caller states whether colours are straight or premultiplied
+    bool has_alpha = true;                            // false: alpha is not compared
+    const peeling::Algorithm* algorithm = nullptr;    // that the port runs; null: not known, and emulations run dual
+    std::string camera = "the given camera";          // in words, for a hint that it may be another
+    std::span<const pipeline::DeviceProfile> more{};  // profiles that are tried before the built-in ones
+    // Of emulations: what is forgiven, the passes after which the port gives up (0: unknown), and its passes.
+    Tolerances tolerances{};
+    int limit = 0;
+    const std::vector<PassPicture>* passes = nullptr;
+    std::function<bool()> is_right_if_linear{};  // if the frame had a linear color space; empty: not asked
+    ShowProgress layers{}, view{}, emulations{}, pairs{};
 };
+
+// The candidate's colours. Throws InputError if it has none.
+[[nodiscard]] const TargetImage& colors_of(const Picture& candidate);
 
 }  // namespace strata::oracle

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <map>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "pipeline/device/profile.h"
@@ -240,10 +239,11 @@ Agreeing agreeing(const Expected& right, const Colors& picture, const Color& bac
 
 }  // namespace
 
-std::vector<std::string> forgotten_options(const peeling::FrameRequest& input, const Colors& picture,
-                                           const std::vector<std::uint32_t>& wrong_pixels, const std::string& camera,
-                                           const ShowProgress& progress) {
-    std::vector<std::string> sentences;
+Forgotten forgotten_options(const peeling::FrameRequest& input, const Colors& picture,
+                            const std::vector<std::uint32_t>& wrong_pixels, const std::string& camera,
+                            const ShowProgress& progress) {
+    Forgotten found;
+    std::vector<std::string>& sentences = found.sentences;
     const SceneFragments scene{input.with(options_of_one_sample(input)), input.options.fragment_memory};
     const Expected right = expected(scene);
     const Color given = given_background(input);
@@ -259,7 +259,8 @@ std::vector<std::string> forgotten_options(const peeling::FrameRequest& input, c
             sentences.push_back(where + "; apart from that the picture is right");
         else
             sentences.push_back(fmt::format("looks forgotten: {}; and {}", way.words, where));
-        return sentences;
+        found.makes_right = true;
+        return found;
     }
     if (seen)
         sentences.push_back(
@@ -278,58 +279,7 @@ std::vector<std::string> forgotten_options(const peeling::FrameRequest& input, c
             "{} of {} wrong pixels are at edges, between the colours of their neighbours: smoothed? --samples 2, 4 and "
             "8 were tried, and do not make the picture right",
             at_edges, wrong_pixels.size()));
-    return sentences;
-}
-
-std::vector<std::string> forgotten_options(const peeling::FrameRequest& input, const verdict::PictureVerdict& verdict,
-                                           const std::string& camera, const ShowProgress& progress) {
-    const std::vector<std::uint32_t>& wrong = verdict.found.right.wrong_pixels;
-    if (verdict.found.is_right || wrong.empty() || !verdict.found.explanations.empty()) return {};
-    return forgotten_options(input, verdict.formed.colors(), wrong, camera, progress);
-}
-
-std::vector<std::string> forgotten_options(const peeling::FrameRequest& input, const SamplesVerdict& verdict,
-                                           const std::string& camera, const ShowProgress& progress) {
-    if (verdict.found.wrong_pixels.empty()) return {};
-    return forgotten_options(input, verdict.form.colors(), verdict.found.wrong_pixels, camera, progress);
-}
-
-namespace {
-
-// The text without the lines of leads: of a picture that a forgotten option makes right, a lead is false.
-std::string without_leads(const std::string& text) {
-    std::string kept;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
-        const std::string line = text.substr(at, end - at);
-        if (!line.starts_with("  lead: ")) kept += line;
-        at = end;
-    }
-    return kept;
-}
-
-// True if with one of the options, or moved, the picture is right.
-bool explain_all(const std::vector<std::string>& sentences) {
-    return std::ranges::any_of(sentences, [](const std::string& s) {
-        return s.ends_with("the picture is right") || s.find("; and everything is half a pixel") != std::string::npos;
-    });
-}
-
-}  // namespace
-
-std::string json_with_forgotten(const std::string& json, const std::vector<std::string>& sentences) {
-    auto document = nlohmann::ordered_json::parse(json);
-    document["forgotten"] = sentences;
-    if (explain_all(sentences) && document.contains("leads")) document["leads"] = nlohmann::ordered_json::array();
-    return document.dump(2) + '\n';
-}
-
-std::string with_forgotten(const std::string& text, const std::vector<std::string>& sentences) {
-    const std::size_t end = text.find('\n') + 1;
-    std::string lines;
-    for (const std::string& sentence : sentences) lines += "  " + sentence + '\n';
-    const std::string rest = text.substr(end);
-    return text.substr(0, end) + lines + (explain_all(sentences) ? without_leads(rest) : rest);
+    return found;
 }
 
 }  // namespace strata::oracle

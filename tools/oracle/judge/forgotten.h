@@ -15,29 +15,18 @@
 
 namespace strata::oracle::verdict {
 class Colors;
-struct PictureVerdict;
-}  // namespace strata::oracle::verdict
+}
 
 namespace strata::oracle {
 
-struct SamplesVerdict;
+struct Forgotten {
+    std::vector<std::string> sentences{};  // without an end of line
+    bool makes_right = false;              // with the options, or moved, the picture is right
+};
 
-// Sentences about a picture that is wrong at `wrong_pixels` (ascending numbers), without an end of line.
-[[nodiscard]] std::vector<std::string> forgotten_options(const peeling::FrameRequest& input,
-                                                         const verdict::Colors& picture,
-                                                         const std::vector<std::uint32_t>& wrong_pixels,
-                                                         const std::string& camera, const ShowProgress& progress = {});
-
-// The same of a verdict; none unless colours are wrong and no mistake explains them.
-[[nodiscard]] std::vector<std::string> forgotten_options(const peeling::FrameRequest& input,
-                                                         const verdict::PictureVerdict& verdict,
-                                                         const std::string& camera, const ShowProgress& progress = {});
-[[nodiscard]] std::vector<std::string> forgotten_options(const peeling::FrameRequest& input,
-                                                         const SamplesVerdict& verdict, const std::string& camera,
-                                                         const ShowProgress& progress = {});
-
-// The text with the sentences as lines after the first; the JSON document with them as "forgotten".
-[[nodiscard]] std::string with_forgotten(const std::string& text, const std::vector<std::string>& sentences);
-[[nodiscard]] std::string json_with_forgotten(const std::string& json, const std::vector<std::string>& sentences);
+// Of a picture that is wrong at `wrong_pixels` (ascending numbers).
+[[nodiscard]] Forgotten forgotten_options(const peeling::FrameRequest& input, const verdict::Colors& picture,
+                                          const std::vector<std::uint32_t>& wrong_pixels, const std::string& camera,
+                                          const ShowProgress& progress = {});
 
 }  // namespace strata::oracle

@@ -1,64 +1,265 @@
-// tools/oracle/judge/judge.cpp - judges a candidate picture: asks for the verdict (picture_verdict.h, or
-// samples_verdict.h for several samples per pixel), then which option of the view looks forgotten (judge.h).
+// tools/oracle/judge/judge.cpp - decides by layers and emulations, and makes the sentences and the document once
+// (judge.h).
 #include "tools/oracle/judge/judge.h"
 
-#include <algorithm>
-#include <string_view>
+#include <fmt/format.h>
 
-#include "pipeline/device/profile.h"
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "peeling/registry.h"
+#include "pipeline/device/check.h"
+#include "rasterizer/base/enum_values.h"
+#include "tools/oracle/compare/report_json.h"
+#include "tools/oracle/diagnosis/diagnosis_report.h"
+#include "tools/oracle/judge/distinguish.h"
+#include "tools/oracle/judge/emulated.h"
 #include "tools/oracle/judge/forgotten.h"
-#include "tools/oracle/judge/samples_verdict.h"
-#include "tools/oracle/verdict/picture_verdict.h"
+#include "tools/oracle/judge/layers_verdict.h"
+#include "tools/oracle/judge/picture_diagnosis.h"
+#include "tools/oracle/verdict/equal_picture.h"
 
 namespace strata::oracle {
 
 namespace {
 
-// Fills in the sentence and the leads from the text: lines of leads begin with "  lead: ".
-Judgement with_sentences(Judgement judgement) {
-    constexpr std::string_view lead = "  lead: ";
-    judgement.text = with_forgotten(judgement.text, judgement.forgotten);
-    judgement.json = json_with_forgotten(judgement.json, judgement.forgotten);
-    std::string_view rest = judgement.text;
-    judgement.sentence = rest.substr(0, rest.find('\n'));
-    while (!rest.empty()) {
-        const std::string_view line = rest.substr(0, rest.find('\n'));
-        if (line.starts_with(lead)) judgement.leads.emplace_back(line.substr(lead.size()));
-        rest.remove_prefix(std::min(rest.size(), line.size() + 1));
-    }
-    return judgement;
+using nlohmann::ordered_json;
+using Kind = Emulated::Kind;
+
+// The first line of a text, and what follows it.
+std::pair<std::string, std::string> divided(const std::string& text) {
+    const std::size_t end = text.find('\n');
+    return {text.substr(0, end), text.substr(std::min(text.size(), end + 1))};
 }
+
+std::string sentence_of(const Emulated& emulated, const peeling::Algorithm& algorithm, std::size_t pixels) {
+    if (emulated.kind == Kind::right)
+        return fmt::format("right: equal to the picture of {} at all {} pixels", algorithm.name, pixels);
+    return fmt::format("{}: every pixel is{} that of: {}",
+                       emulated.kind == Kind::other_options ? "right under other options" : "wrong",
+                       emulated.is_exact ? "" : ", within one code,", emulated.words);
+}
+
+class Judge {
+  public:
+    Judge(const peeling::FrameRequest& input, const AskedPicture& asked, Effort effort)
+        : input_{input},
+          asked_{asked},
+          algorithm_{asked.algorithm != nullptr ? *asked.algorithm : *peeling::find_algorithm("dual")},
+          effort_{effort} {}
+
+    [[nodiscard]] Judgement decide() && {
+        const bool has_colors = std::ranges::any_of(asked_.candidate.targets,
+                                                    [](const TargetImage& t) { return t.meaning == Meaning::color; });
+        if (effort_ == Effort::all) emulations_ = diagnose_picture(input_, algorithm_, asked_);
+        if (emulations_) emulated_ = emulated_of(emulations_->found);
+        // Passes show more than the layers of the picture. A file may have depths alone, which emulations judge.
+        if (asked_.passes == nullptr && (has_colors || !emulations_)) layers_ = judge_layers(input_, asked_);
+        if (layers_ && !emulations_ && (!layers_->is_right() || layers_->lost_at_ties() > 0 || !algorithm_.exact))
+            ask_single_emulations();
+        weigh();
+        found_.is_right = found_.state == JudgedState::right || found_.state == JudgedState::right_otherwise;
+        found_.is_undecided = found_.state == JudgedState::undecided;
+        if (emulations_) conclude();
+        finish();
+        return std::move(found_);
+    }
+
+  private:
+    void ask_single_emulations() {
+        const TargetImage& colors = colors_of(asked_.candidate);
+        if (colors.pixels() > most_pixels_of_emulations) return;
+        const auto& wrong = layers_->wrong_colors();
+        const rasterizer::Rect part = !wrong.empty()    ? verdict::most_wrong(wrong, colors.width)
+                                      : layers_->single ? verdict::fullest(*layers_->single->fragments)
+                                                        : rasterizer::Rect{0, 0, 32, 32};
+        try {
+            emulated_ = emulated_alone(input_, algorithm_, asked_, part);
+        } catch (const pipeline::Refused&) {  // a device that cannot run dual is judged by layers
+        }
+    }
+
+    // Which of the two decides.
+    void weigh() {
+        const bool is_of_one_mistake = emulated_.kind == Kind::mistakes && emulated_.is_exact && emulated_.is_single;
+        const bool is_right_run = emulated_.kind == Kind::right || emulated_.kind == Kind::other_options;
+        if (!layers_) return by_emulation();
+        if (!algorithm_.exact) {
+            if (is_right_run || (emulated_.kind == Kind::mistakes && emulated_.is_exact)) return by_emulation();
+            if (is_decided_by_own_structure()) return;
+        }
+        if (layers_->is_right()) return layers_->lost_at_ties() > 0 && is_of_one_mistake ? by_emulation() : by_layers();
+        if (is_right_run) return by_emulation();
+        if (layers_->is_explained()) return by_layers();
+        if (is_of_one_mistake) return by_emulation();
+        const bool is_open = !is_right_in_another_view() && !layers_->is_undecided();
+        if (is_open && emulated_.kind == Kind::mistakes) return by_emulation();
+        by_layers();
+    }
+
+    // Asks which option of the view looks forgotten.
+    [[nodiscard]] bool is_right_in_another_view() {
+        if (layers_->wrong_colors().empty()) return false;
+        const Forgotten view =
+            forgotten_options(input_, layers_->colors(), layers_->wrong_colors(), asked_.camera, asked_.view);
+        found_.forgotten = view.sentences;
+        return makes_right_ = view.makes_right;
+    }
+
+    void by_layers() {
+        using enum JudgedState;
+        found_.state = layers_->is_right()       ? layers_->is_by_other_rules() ? right_otherwise : right
+                       : layers_->is_undecided() ? undecided
+                       : layers_->is_explained() ? explained
+                                                 : not_explained;
+        found_.mistakes = layers_->mistakes(input_.list);
+        found_.leads = layers_->leads(input_.list);
+        if (found_.state == not_explained && !(found_.leads.empty() && found_.forgotten.empty()))
+            found_.state = explained_in_part;
+    }
+
+    void by_emulation() {
+        using enum JudgedState;
+        is_by_emulation_ = true;
+        found_.forgotten.clear();
+        switch (emulated_.kind) {
+            case Kind::none: break;
+            case Kind::right: found_.state = right; break;
+            case Kind::other_options: found_.state = right_otherwise; break;
+            case Kind::mistakes: found_.state = explained; break;
+        }
+        if (emulated_.kind != Kind::none) {
+            found_.sentence = sentence_of(emulated_, algorithm_, asked_.candidate.targets[0].pixels());
+            if (found_.state == explained) found_.mistakes = {emulated_.words};
+        } else {
+            found_.sentence = divided("wrong: " + first_line(emulations_->found)).first;
+        }
+    }
+
+    // An approximate algorithm has a structure of its own; a port that has it, too, is right. A picture with the exact
+    // structure is not that of an algorithm that has another one.
+    [[nodiscard]] bool is_decided_by_own_structure() {
+        const std::vector<std::string> seen = layers_->mistakes(input_.list);
+        if (seen.empty() && !layers_->is_right()) return false;
+        const Picture own = emulations_ ? emulations_->right : MistakeRenderer{input_, algorithm_}.right();
+        const LayersVerdict its =
+            judge_layers(input_, {.candidate = own, .has_alpha = asked_.has_alpha, .more = asked_.more});
+        if (layers_->is_right()) {
+            if (its.is_right()) return false;
+            found_.sentence =
+                fmt::format("wrong: the picture is right for the scene, but not that of {}", algorithm_.name);
+            return true;
+        }
+        const std::vector<std::string> of_own = its.mistakes(input_.list);
+        const auto shared = std::ranges::find_first_of(seen, of_own);
+        if (shared == seen.end()) return false;
+        found_.state = JudgedState::right;
+        found_.sentence = fmt::format("right but for rounding: {}, as {} does", *shared, algorithm_.name);
+        return true;
+    }
+
+    // Of a picture that something else explains a lead is false.
+    void drop_leads() {
+        found_.leads.clear();
+        if (layers_) layers_->drop_leads();
+    }
+
+    // The conclusion of a diagnosis is the judgement's.
+    void conclude() {
+        Diagnosis& found = emulations_->found;
+        const bool is_right_run = emulated_.kind == Kind::right || emulated_.kind == Kind::other_options;
+        if (found_.is_right && !is_by_emulation_ && !(is_right_run && emulated_.is_exact)) {
+            found.conclusion = Conclusion::right_structure;
+            found.is_nearly = false;
+        } else if (!found_.is_right && !is_by_emulation_ && emulated_.kind == Kind::mistakes &&
+                   !(emulated_.is_single && emulated_.is_exact)) {
+            found.conclusion = Conclusion::unknown_mistake;
+            found.is_nearly = false;
+        }
+        const bool is_open =
+            found.conclusion == Conclusion::unknown_mistake &&
+            (found_.state == JudgedState::not_explained || found_.state == JudgedState::explained_in_part || !layers_);
+        found.distinguishing_scene = scene_for(found, is_open);
+    }
+
+    void finish() {
+        if (layers_ && layers_->single) {
+            verdict::PictureVerdict& single = *layers_->single;
+            single.found.distinguishing_command = distinguishing_command(single.found);
+            if (shows_linear_light() && asked_.is_right_if_linear && asked_.is_right_if_linear())
+                single.reading += "  with --color-space linear the picture is right\n";
+        }
+        if (makes_right_ || (found_.state == JudgedState::explained && !(layers_ && layers_->is_explained())))
+            drop_leads();
+        const auto [first, rest] =
+            layers_ ? divided(layers_->text(input_.list)) : std::pair<std::string, std::string>{};
+        if (found_.sentence.empty()) found_.sentence = first;
+        write_text(rest);
+        write_json();
+        if (layers_) found_.layers = std::make_shared<const LayersVerdict>(*std::move(layers_));
+        if (emulations_) found_.emulations = std::make_shared<const PictureDiagnosis>(*std::move(emulations_));
+    }
+
+    [[nodiscard]] bool shows_linear_light() const {
+        using verdict::RuleKind;
+        return std::ranges::any_of(layers_->single->found.explanations, [](const verdict::CheckedAccount& c) {
+            const RuleKind kind = c.account.rules[0].kind;
+            return kind == RuleKind::decoded || kind == RuleKind::blended_linear;
+        });
+    }
+
+    void write_text(const std::string& lines_of_layers) {
+        std::string& text = found_.text;
+        text = found_.sentence + '\n';
+        for (const std::string& sentence : found_.forgotten) text += "  " + sentence + '\n';
+        if (layers_ && !is_by_emulation_ && layers_->is_right() == found_.is_right) text += lines_of_layers;
+        if (!emulations_) {
+            if (layers_->samples && found_.state == JudgedState::not_explained)
+                text += "  strata diagnose, with the same --samples, names known mistakes\n";
+            if (!is_by_emulation_ && emulated_.kind == Kind::mistakes)
+                text += "  every pixel is that of: " + emulated_.words + '\n';
+            for (const std::string& words : emulated_.alike)
+                text += "  the same picture of this scene: " + words + '\n';
+            return;
+        }
+        const bool is_of_layers = emulations_->found.conclusion == Conclusion::right_structure;
+        if (!is_by_emulation_ && !is_of_layers) text += "  " + first_line(emulations_->found);
+        text += oracle::lines_of(emulations_->found, emulations_->comparison);
+    }
+
+    void write_json() {
+        ordered_json layers = layers_ ? layers_->json(input_) : ordered_json(nullptr);
+        ordered_json document = emulations_ ? json_of(emulations_->found, emulations_->comparison) : layers;
+        if (emulations_)
+            document["structure"] = std::move(layers);
+        else
+            document["verdict"] = found_.is_right ? "right" : found_.is_undecided ? "undecided" : "wrong";
+        document["state"] = name(found_.state);
+        document["sentence"] = found_.sentence;
+        document["mistakes"] = found_.mistakes;
+        document["forgotten"] = found_.forgotten;
+        if (emulations_) document["leads"] = found_.leads;
+        found_.json = text_of(document);
+    }
+
+    const peeling::FrameRequest& input_;
+    const AskedPicture& asked_;
+    const peeling::Algorithm& algorithm_;
+    Effort effort_;
+    std::optional<LayersVerdict> layers_{};
+    std::optional<PictureDiagnosis> emulations_{};
+    Emulated emulated_{};
+    bool is_by_emulation_ = false, makes_right_ = false;
+    Judgement found_{};
+};
 
 }  // namespace
 
-Judgement judge(const peeling::FrameRequest& input, const AskedPicture& picture,
-                std::span<const pipeline::DeviceProfile> more) {
-    if (input.options.sampling.samples > 1) {
-        const SamplesVerdict verdict = judge_samples(input, picture, more);
-        Judgement judgement{.is_right = verdict.found.is_right(), .text = to_text(verdict), .json = to_json(verdict)};
-        judgement.forgotten = forgotten_options(input, verdict, picture.camera);
-        return with_sentences(std::move(judgement));
-    }
-    const verdict::PictureVerdict verdict =
-        verdict::judge_picture(input, {.colors = picture.colors,
-                                       .is_form_stated = picture.is_form_stated,
-                                       .has_alpha = picture.has_alpha,
-                                       .is_frame_linear = input.space == pipeline::ColorSpace::linear,
-                                       .algorithm = picture.algorithm,
-                                       .more = more,
-                                       .progress = picture.progress});
-    const verdict::Verdict& found = verdict.found;
-    std::vector<std::string> mistakes;
-    for (const verdict::CheckedAccount& c : found.explanations)
-        mistakes.push_back(description(c.account.rules, found.facts, input.list));
-    Judgement judgement{.is_right = found.is_right,
-                        .is_undecided = found.is_undecided(),
-                        .is_explained = !found.explanations.empty() || found.alpha.state == verdict::AlphaState::wrong,
-                        .mistakes = std::move(mistakes),
-                        .text = to_text(verdict, input.list),
-                        .json = to_json(verdict, input.list, input.profile.name)};
-    judgement.forgotten = forgotten_options(input, verdict, picture.camera);
-    return with_sentences(std::move(judgement));
+std::string_view name(JudgedState state) noexcept { return enum_name(state); }
+
+Judgement judge(const peeling::FrameRequest& input, const AskedPicture& asked, Effort effort) {
+    return Judge{input, asked, effort}.decide();
 }
 
 }  // namespace strata::oracle

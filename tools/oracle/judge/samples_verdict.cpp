@@ -16,9 +16,9 @@
 
 namespace strata::oracle {
 
-using pipeline::DeviceProfile;
 using verdict::Formed;
 using verdict::OtherRules;
+using verdict::PictureQuestion;
 using verdict::ResolvedVerdict;
 using verdict::SceneFragments;
 
@@ -43,18 +43,16 @@ verdict::Samples samples_of(const peeling::FrameRequest& input, const OtherRules
 }
 
 // The ways to read the picture's colours.
-std::vector<Formed> forms_of(const AskedPicture& asked, pipeline::ColorSpace space) {
+std::vector<Formed> forms_of(const PictureQuestion& asked) {
     const std::optional<TargetImage> codes = verdict::in_codes(asked.colors);
-    const AskedPicture picture{codes ? *codes : asked.colors, asked.is_form_stated, asked.has_alpha};
+    const TargetImage& colors = codes ? *codes : asked.colors;
     std::vector<Formed> forms;
-    const bool may_be_straight = picture.colors.alpha_form == AlphaForm::straight;
-    auto multiplied = may_be_straight ? premultiplied(picture.colors) : std::nullopt;
-    const verdict::ChannelUse use{.has_alpha = picture.has_alpha,
-                                  .is_encoded = space == pipeline::ColorSpace::linear && picture.colors.holds_encoded};
-    if (!multiplied || !picture.is_form_stated)
-        forms.push_back({.target = picture.colors, .use = use, .is_chosen = multiplied.has_value()});
-    if (multiplied)
-        forms.push_back({.target = *std::move(multiplied), .use = use, .is_chosen = !picture.is_form_stated});
+    auto multiplied = colors.alpha_form == AlphaForm::straight ? premultiplied(colors) : std::nullopt;
+    const verdict::ChannelUse use{.has_alpha = asked.has_alpha,
+                                  .is_encoded = asked.is_frame_linear && colors.holds_encoded};
+    if (!multiplied || !asked.is_form_stated)
+        forms.push_back({.target = colors, .use = use, .is_chosen = multiplied.has_value()});
+    if (multiplied) forms.push_back({.target = *std::move(multiplied), .use = use, .is_chosen = !asked.is_form_stated});
     if (multiplied) forms.back().use.is_divided = true;
     return forms;
 }
@@ -80,22 +78,17 @@ std::optional<ResolvedVerdict> right_samples_by(const OtherRules& rules, const p
     }
 }
 
-SamplesVerdict judge_samples(const peeling::FrameRequest& input, const AskedPicture& picture,
-                             std::span<const DeviceProfile> more) {
+SamplesVerdict judge_samples(const peeling::FrameRequest& input, const PictureQuestion& question) {
     SamplesVerdict verdict{.by = "the rules of profile " + input.profile.name};
     const verdict::Samples given = samples_of(input, {"", input.profile, input.options.raster.interpolation});
-    for (Formed& form : forms_of(picture, input.space)) {
+    for (Formed& form : forms_of(question)) {
         ResolvedVerdict found = judge_resolved(given, form.colors());
         if (!verdict.form.target.codes.empty() && !is_better(found, verdict.found)) continue;
         verdict.found = std::move(found);
         verdict.form = std::move(form);
         if (verdict.found.is_right()) return verdict;
     }
-    const verdict::PictureQuestion question{.colors = picture.colors,
-                                            .has_alpha = picture.has_alpha,
-                                            .is_frame_linear = input.space == pipeline::ColorSpace::linear,
-                                            .algorithm = picture.algorithm};
-    const rasterizer::Rect part = verdict::most_wrong(wrong_pixels(verdict.found), picture.colors.width);
+    const rasterizer::Rect part = verdict::most_wrong(wrong_pixels(verdict.found), question.colors.width);
     if (const std::string name = equal_algorithm(input, question, part); !name.empty()) {
         verdict.found.equal_to = name;
         verdict.found.wrong_pixels.clear();
@@ -107,10 +100,10 @@ SamplesVerdict judge_samples(const peeling::FrameRequest& input, const AskedPict
     // Rules decide about coverage and colours: another alpha has another cause.
     const std::vector<std::uint32_t> wrong = verdict.found.wrong_pixels;
     if (wrong.empty()) return verdict;
-    const std::vector<OtherRules> others = verdict::other_rules(input, more);
+    const std::vector<OtherRules> others = verdict::other_rules(input, question.more);
     for (const OtherRules& other : others) {
         const auto tried = static_cast<double>(&other - others.data());
-        if (picture.progress) picture.progress(tried / static_cast<double>(others.size()));
+        if (question.progress) question.progress(tried / static_cast<double>(others.size()));
         auto found = right_samples_by(other, input, verdict.form.colors(), wrong);
         if (!found) continue;
         verdict.found = *std::move(found);
@@ -125,11 +118,11 @@ std::string to_text(const SamplesVerdict& verdict) {
     return to_text(verdict.found, verdict.form.target.width) + verdict.form.description() + verdict.description;
 }
 
-std::string to_json(const SamplesVerdict& verdict) {
-    auto document = nlohmann::ordered_json::parse(to_json(verdict.found, verdict.form.target.width));
+nlohmann::ordered_json json_of(const SamplesVerdict& verdict) {
+    nlohmann::ordered_json document = json_of(verdict.found, verdict.form.target.width);
     if (verdict.form.is_chosen) document["colors"] = verdict.form.use.is_divided ? "straight" : "premultiplied";
     document["rules"] = verdict.by;
-    return document.dump(2) + '\n';
+    return document;
 }
 
 }  // namespace strata::oracle

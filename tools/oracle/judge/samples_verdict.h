@@ -7,14 +7,19 @@
 //          stated.
 // Tests    tests/tools/strata/compare/compare_samples_test.cpp
 #pragma once
-#include <span>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "peeling/frame_request.h"
 #include "tools/oracle/fragments/form.h"
-#include "tools/oracle/judge/asked_picture.h"
 #include "tools/oracle/verdict/other_rules.h"
 #include "tools/oracle/verdict/resolved.h"
+
+namespace strata::oracle::verdict {
+struct PictureQuestion;
+}
 
 namespace strata::oracle {
 
@@ -25,9 +30,9 @@ struct SamplesVerdict {
     std::string description{};  // a line of text, if it is right by other rules than those given
 };
 
-// `more`: profiles that are tried before the built-in ones. Throws Refused if the profile lacks the number of samples.
-[[nodiscard]] SamplesVerdict judge_samples(const peeling::FrameRequest& input, const AskedPicture& picture,
-                                           std::span<const pipeline::DeviceProfile> more = {});
+// Throws Refused if the profile lacks the number of samples.
+[[nodiscard]] SamplesVerdict judge_samples(const peeling::FrameRequest& input,
+                                           const verdict::PictureQuestion& question);
 
 // The verdict by the rules if the picture is right by them. `wrong`: pixels that are wrong by the rules given, which
 // are compared first.
@@ -37,6 +42,6 @@ struct SamplesVerdict {
                                                                        const std::vector<std::uint32_t>& wrong);
 
 [[nodiscard]] std::string to_text(const SamplesVerdict& verdict);
-[[nodiscard]] std::string to_json(const SamplesVerdict& verdict);
+[[nodiscard]] nlohmann::ordered_json json_of(const SamplesVerdict& verdict);
 
 }  // namespace strata::oracle

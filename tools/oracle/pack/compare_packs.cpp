@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/oracle/compare/report.h"
+#include "tools/oracle/compare/report_json.h"
 
 namespace strata::oracle {
 
@@ -116,8 +117,8 @@ std::string indented(const std::string& text) {
     return result;
 }
 
-ordered_json parsed(const std::optional<Comparison>& comparison) {
-    return comparison ? ordered_json::parse(to_json(*comparison)) : ordered_json(nullptr);
+ordered_json json_or_null(const std::optional<Comparison>& comparison) {
+    return comparison ? json_of(*comparison) : ordered_json(nullptr);
 }
 
 }  // namespace
@@ -198,13 +199,13 @@ std::string to_json(const std::vector<PackComparison>& comparisons) {
             first = {{"number", c.first->number},
                      {"iteration", c.first->iteration},
                      {"kind", c.first->kind},
-                     {"comparison", parsed(c.first->comparison)}};
+                     {"comparison", json_or_null(c.first->comparison)}};
         document.push_back({{"algorithm", c.algorithm},
                             {"is_there", c.is_there},
                             {"equal", c.equal},
                             {"accepted", c.accepted},
-                            {"picture", parsed(c.picture)},
-                            {"layers", parsed(c.layers)},
+                            {"picture", json_or_null(c.picture)},
+                            {"layers", json_or_null(c.layers)},
                             {"passes_compared", c.passes.size()},
                             {"passes", passes_json(c.passes)},
                             {"first_pass", std::move(first)},

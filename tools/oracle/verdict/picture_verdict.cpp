@@ -208,11 +208,12 @@ std::string to_text(const PictureVerdict& verdict, const pipeline::DrawList& lis
     return to_text(verdict.found, list) + verdict.reading;
 }
 
-std::string to_json(const PictureVerdict& verdict, const pipeline::DrawList& list, const std::string& given_profile) {
-    nlohmann::ordered_json document = nlohmann::ordered_json::parse(to_json(verdict.found, list));
+nlohmann::ordered_json json_of(const PictureVerdict& verdict, const pipeline::DrawList& list,
+                               const std::string& given_profile) {
+    nlohmann::ordered_json document = json_of(verdict.found, list);
     if (verdict.formed.is_chosen) document["colors"] = verdict.formed.use.is_divided ? "straight" : "premultiplied";
     document["profile"] = verdict.other_profile ? verdict.other_profile->name : given_profile;
-    return document.dump(2) + '\n';
+    return document;
 }
 
 }  // namespace strata::oracle::verdict

@@ -11,6 +11,7 @@
 // Tests    tests/tools/oracle/verdict/picture_verdict_test.cpp, tests/tools/strata/compare/compare_scene_test.cpp
 #pragma once
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 
@@ -53,7 +54,7 @@ struct PictureVerdict {
 
 [[nodiscard]] std::string to_text(const PictureVerdict& verdict, const pipeline::DrawList& list);
 // With the form that colours were read in and the name of the profile as its last keys.
-[[nodiscard]] std::string to_json(const PictureVerdict& verdict, const pipeline::DrawList& list,
-                                  const std::string& given_profile);
+[[nodiscard]] nlohmann::ordered_json json_of(const PictureVerdict& verdict, const pipeline::DrawList& list,
+                                             const std::string& given_profile);
 
 }  // namespace strata::oracle::verdict

@@ -96,6 +96,12 @@ std::string lead_of(const Lead& l, const Verdict& v, const pipeline::DrawList& l
 
 }  // namespace
 
+std::vector<std::string> leads_of(const Verdict& v, const pipeline::DrawList& list) {
+    std::vector<std::string> leads;
+    for (const Lead& lead : v.leads) leads.push_back(lead_of(lead, v, list));
+    return leads;
+}
+
 std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
     std::string text = first_line(v, list) + '\n';
     const auto add = [&](const std::string& line) { text += "  " + line + '\n'; };
@@ -121,7 +127,7 @@ std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
         const std::uint32_t first = wrong[0], width = static_cast<std::uint32_t>(v.width);
         add(fmt::format("the first wrong pixel is {},{}", first % width, first / width));
     }
-    for (const Lead& lead : v.leads) add("lead: " + lead_of(lead, v, list));
+    for (const std::string& lead : leads_of(v, list)) add("lead: " + lead);
     if (v.is_stopped) add("the search reached its limit: not all mistakes were tried");
     if (v.explanations.empty() && !v.alike.empty())
         add(
@@ -167,7 +173,7 @@ ordered_json json_of(const CheckedAccount& c, const Verdict& v, const pipeline::
 
 }  // namespace
 
-std::string to_json(const Verdict& v, const pipeline::DrawList& list) {
+ordered_json json_of(const Verdict& v, const pipeline::DrawList& list) {
     ordered_json document{{"verdict", v.is_right         ? "right"
                                       : v.is_undecided() ? "undecided"
                                                          : "wrong"},
@@ -197,7 +203,7 @@ std::string to_json(const Verdict& v, const pipeline::DrawList& list) {
     const std::vector<std::uint32_t>& wrong = wrong_pixels(v);
     for (std::size_t i = 0; i < std::min(most, wrong.size()); ++i)
         document["first_wrong"].push_back({wrong[i] % width, wrong[i] / width});
-    return document.dump(2) + '\n';
+    return document;
 }
 
 }  // namespace strata::oracle::verdict

@@ -352,11 +352,10 @@ std::string to_text(const ResolvedVerdict& v, int width) {
     if (v.is_right() && v.alpha.is_told) text += fmt::format("  {}\n", describe(v.alpha));
     if (wrong.empty()) return text;
     const auto columns = static_cast<std::uint32_t>(width);
-    text += fmt::format("  the first wrong pixel is {},{}\n", wrong[0] % columns, wrong[0] / columns);
-    return text + "  strata diagnose, with the same --samples, names known mistakes\n";
+    return text + fmt::format("  the first wrong pixel is {},{}\n", wrong[0] % columns, wrong[0] / columns);
 }
 
-std::string to_json(const ResolvedVerdict& v, int width) {
+nlohmann::ordered_json json_of(const ResolvedVerdict& v, int width) {
     nlohmann::ordered_json document{{"verdict", v.is_right() ? "right" : "wrong"},
                                     {"sentence", first_line(v)},
                                     {"pixels", v.pixels},
@@ -372,7 +371,7 @@ std::string to_json(const ResolvedVerdict& v, int width) {
     const std::vector<std::uint32_t>& wrong = oracle::verdict::wrong_pixels(v);
     for (std::size_t i = 0; i < std::min<std::size_t>(16, wrong.size()); ++i)
         document["first_wrong"].push_back({wrong[i] % columns, wrong[i] / columns});
-    return document.dump(2) + '\n';
+    return document;
 }
 
 }  // namespace strata::oracle::verdict

@@ -10,6 +10,7 @@
 // Tests    tests/tools/oracle/verdict/resolved_test.cpp
 #pragma once
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -44,6 +45,6 @@ using Samples = std::vector<std::unique_ptr<SceneFragments>>;
 [[nodiscard]] const std::vector<std::uint32_t>& wrong_pixels(const ResolvedVerdict& verdict);
 
 [[nodiscard]] std::string to_text(const ResolvedVerdict& verdict, int width);
-[[nodiscard]] std::string to_json(const ResolvedVerdict& verdict, int width);
+[[nodiscard]] nlohmann::ordered_json json_of(const ResolvedVerdict& verdict, int width);
 
 }  // namespace strata::oracle::verdict

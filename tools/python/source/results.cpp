@@ -216,6 +216,7 @@ void bind_compare(py::module_& module) {
 void bind_judgement(py::module_& module) {
     py::class_<Judgement>(module, "Judgement",
                           "Whether a picture of a scene is right, apart from formats and rounding.")
+        .def_property_readonly("state", [](const Judgement& j) { return std::string{oracle::name(j.state)}; })
         .def_readonly("is_right", &Judgement::is_right)
         .def_readonly("is_undecided", &Judgement::is_undecided)
         .def_readonly("sentence", &Judgement::sentence)
@@ -227,11 +228,12 @@ void bind_judgement(py::module_& module) {
         .def("__bool__", [](const Judgement& j) { return j.is_right; })
         .def("__repr__", [](const Judgement& j) { return "<strata.Judgement " + j.sentence + ">"; });
     module.def("_judge", [](const Scene& scene, const Picture& candidate, const std::string& profile_name,
-                            const py::kwargs& keywords) {
+                            const std::string& ran, const py::kwargs& keywords) {
         DeviceProfile profile = strata::profile(profile_name);
         const RenderOptions options = options_of_keywords(keywords, profile);
+        const Algorithm* stated = ran.empty() ? nullptr : &strata::algorithm(ran);
         py::gil_scoped_release without_lock;
-        return judge(scene, candidate, profile, options);
+        return judge(scene, candidate, profile, options, stated);
     });
 }
 
@@ -242,6 +244,8 @@ void bind_diagnosis(py::module_& module) {
         .def_property_readonly("mistakes", &Diagnosed::mistakes)
         .def_property_readonly("alike", &Diagnosed::alike)
         .def_property_readonly("differing", [](const Diagnosed& d) { return d.comparison.differing; })
+        .def_property_readonly("state", [](const Diagnosed& d) { return std::string{oracle::name(d.judgement.state)}; })
+        .def_property_readonly("sentence", &Diagnosed::sentence)
         .def_property_readonly("text", &Diagnosed::text)
         .def_property_readonly("json_text", &Diagnosed::json);
     module.def("_diagnose", [](const Scene& scene, const Picture& candidate, const std::string& algorithm,

@@ -62,15 +62,10 @@ const peeling::Algorithm* algorithm_of(const CompareOptions& options) {
     return all.size() == 1 ? peeling::find_algorithm(all[0].algorithm) : nullptr;
 }
 
-// A verdict is about layers in depth order, which a right port of an approximate algorithm does not composite. Its
-// picture is compared with the algorithm's own, and a note says so.
-bool takes_own_picture(const CompareOptions& options) {
+// The algorithm whose picture the candidate has to be: the stated one, or that of a pack if it is not exact.
+std::string judged_algorithm(const CompareOptions& options) {
     const peeling::Algorithm* algorithm = algorithm_of(options);
-    if (algorithm == nullptr || algorithm->exact) return false;
-    say_note("strata: note: " + algorithm->name +
-             " is not exact on every scene, so its own picture is the reference, to the bit; --tolerance color=1 "
-             "forgives a code of rounding\n");
-    return true;
+    return algorithm != nullptr && !algorithm->exact ? algorithm->name : options.algorithm;
 }
 
 ComparedPaths paths_of(const CompareOptions& options) { return {options.reference, options.candidate}; }
@@ -174,13 +169,13 @@ int compared(const CompareOptions& options) {
     scenes::expect_for_a_pixel(bytes_of_a_comparison);
     if (scenes::is_pack(options.reference) && std::filesystem::is_directory(options.candidate))
         return compare_folders(options);
-    if (asks_for_verdict(options) && !takes_own_picture(options)) {
+    if (asks_for_verdict(options)) {
         scenes::expect_for_a_pixel(bytes_of_a_verdict(options.run.sampling.samples));
         oracle::Picture picture = oracle::read_picture(options.candidate, options.layout);
         state_alpha(picture, options.alpha_form);
         const bool has_alpha = options.tolerances.channels == oracle::ColorChannels::all;
         return compare_with_scene({options.run,
-                                   options.algorithm,
+                                   judged_algorithm(options),
                                    options.json,
                                    {options.report, options.heat, options.side, options.junit},
                                    options.alpha_form.has_value(),
@@ -326,7 +321,7 @@ Command add_compare(CLI::App& root) {
         "With a scene as the reference the picture is right if some port that composites the right fragments in the "
         "right order can make it, "
         "whatever its formats, order of blending and rounding. With --algorithm and one that is not exact (strata list "
-        "algorithms) it is compared with that algorithm's own picture.\n"
+        "algorithms) it has to be that algorithm's picture.\n"
         "Exit status: 0 right, equal or within --tolerance, 1 wrong or different, 2 bad input or usage, 3 the system "
         "failed, 130 "
         "interrupted.");

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "peeling/registry.h"
@@ -20,13 +19,10 @@
 #include "scenes/packs/plain_triangles.h"
 #include "tools/oracle/compare/drawings.h"
 #include "tools/oracle/compare/report.h"
-#include "tools/oracle/judge/forgotten.h"
-#include "tools/oracle/judge/samples_verdict.h"
+#include "tools/oracle/judge/judge.h"
+#include "tools/oracle/judge/layers_verdict.h"
 #include "tools/oracle/picture/stored_like.h"
-#include "tools/oracle/rules/distinguish_rules.h"
 #include "tools/oracle/search/edits.h"
-#include "tools/oracle/suite/suite.h"
-#include "tools/oracle/verdict/picture_verdict.h"
 #include "tools/strata/compare/compare_pages.h"
 #include "tools/strata/progress.h"
 #include "tools/strata/recorded_command.h"
@@ -50,12 +46,6 @@ std::string camera_in_words(const RunOptions& run) {
     if (run.takes_own_view) return "the scene's own view";
     const Orbit orbit = run.orbit.value_or(Orbit{});
     return fmt::format("--orbit {},{}", orbit.azimuth, orbit.elevation);
-}
-
-const oracle::TargetImage& colors_of(const oracle::Picture& candidate) {
-    const auto found = std::ranges::find(candidate.targets, oracle::Meaning::color, &oracle::TargetImage::meaning);
-    if (found == candidate.targets.end()) throw InputError(candidate.file, "targets", "colours", "none");
-    return *found;
 }
 
 Session open_at_size(SceneQuestion& question, const oracle::TargetImage& target, const std::string& file) {
@@ -118,30 +108,12 @@ pipeline::Image drawn(const EditMap& map) {
     return image;
 }
 
-// Returns the command of the first scene of the suite on which the explanations give different pictures; "" if there is
-// no such scene, or fewer than two explanations.
-std::string distinguishing_command(const oracle::verdict::Verdict& found) {
-    std::vector<std::vector<oracle::verdict::Rule>> rules;
-    for (const oracle::verdict::CheckedAccount& c : found.explanations)
-        if (is_of_any_scene(c.account.rules)) rules.push_back(c.account.rules);
-    if (rules.size() < 2) return "";
-    for (const oracle::SuiteScene& scene : oracle::suite()) {
-        if (scene.samples > 1) continue;  // the rules are about pictures of one
-        const oracle::OpenScene opened = open(scene);
-        const oracle::verdict::SceneFragments fragments{opened.input(), opened.options.fragment_memory};
-        if (distinguishes(fragments, rules)) return command_of(scene);
-    }
-    return "";
-}
-
 std::string counted(std::uint64_t pixels, const std::string& what) {
     return std::to_string(pixels) + (pixels == 1 ? " pixel: " : " pixels: ") + what;
 }
 
-// A verdict as it is shown in files.
+// The wrong pixels of a verdict as files show them.
 struct ShownVerdict {
-    std::string text;
-    bool is_right = false;
     pipeline::Image map;      // of the wrong pixels
     std::string map_caption;  // what its colours mean
     std::vector<PlainPage::Swatch> legend{};
@@ -163,10 +135,10 @@ oracle::Picture right_picture(const SceneQuestion& question, const Session& sess
 // The page: what a right port shows, the candidate, the difference and the wrong pixels next to each other, then the
 // verdict.
 PlainPage page_of(const std::string& scene, const oracle::Picture& right, const oracle::Picture& candidate,
-                  const oracle::Comparison& difference, const ShownVerdict& verdict) {
+                  const oracle::Comparison& difference, const std::string& text, const ShownVerdict& verdict) {
     const std::string name = std::filesystem::path(candidate.file).filename().string();
     PlainPage page{"Verdict", name + " of " + std::filesystem::path(scene).filename().string()};
-    std::istringstream lines(verdict.text);
+    std::istringstream lines(text);
     std::vector<std::string> messages;
     for (std::string line; std::getline(lines, line);) messages.push_back(line);
     page.lead(messages[0]);
@@ -194,31 +166,10 @@ std::string one_line(const std::string& text) {
     return all;
 }
 
-void write_files(const SceneQuestion& question, const Session& session, const oracle::Picture& candidate,
-                 const ShownVerdict& verdict) {
-    const VerdictFiles& files = question.files;
-    if (!files.junit.empty())
-        scenes::write_file(files.junit, oracle::to_junit(std::vector<oracle::JunitCase>{
-                                            {.group = "strata.compare",
-                                             .name = "verdict",
-                                             .failure = verdict.is_right ? "" : one_line(verdict.text)}}));
-    if (files.heat.empty() && files.side.empty() && files.report.empty()) return;
-    const oracle::Picture right = right_picture(question, session, candidate);
-    const oracle::Comparison difference = oracle::compare(right, candidate, {}, {});
-    if (!files.heat.empty()) scenes::write_image(files.heat, {.color = oracle::heat_map_with_legend(difference)});
-    if (!files.side.empty())
-        scenes::write_image(files.side, {.color = oracle::beside({oracle::as_shown(right), oracle::as_shown(candidate),
-                                                                  oracle::heat_map(difference), verdict.map})});
-    if (!files.report.empty())
-        write_page(files.report, page_of(question.run.scene, right, candidate, difference, verdict));
-}
-
-ShownVerdict shown(const oracle::verdict::PictureVerdict& verdict, const pipeline::DrawList& list, std::string text) {
+ShownVerdict shown(const oracle::verdict::PictureVerdict& verdict, const pipeline::DrawList& list) {
     const oracle::verdict::Verdict& found = verdict.found;
     const EditMap map = edit_map(*verdict.fragments, verdict.formed.colors(), found);
-    ShownVerdict shown{.text = std::move(text),
-                       .is_right = verdict.is_right(),
-                       .map = drawn(map),
+    ShownVerdict shown{.map = drawn(map),
                        .map_caption = found.is_right ? "Wrong pixels: none, so all of it is black"
                                                      : "What each wrong pixel composited: black is right"};
     if (found.is_right) return shown;
@@ -232,7 +183,7 @@ ShownVerdict shown(const oracle::verdict::PictureVerdict& verdict, const pipelin
     return shown;
 }
 
-ShownVerdict shown(const oracle::SamplesVerdict& verdict, std::string text) {
+ShownVerdict shown(const oracle::SamplesVerdict& verdict) {
     EditMap map{.width = verdict.form.target.width, .height = verdict.form.target.height};
     map.of_pixel.assign(verdict.form.target.pixels(), EditMap::right);
     const auto mark = [&map](const std::vector<std::uint32_t>& pixels, std::uint8_t as) {
@@ -240,96 +191,76 @@ ShownVerdict shown(const oracle::SamplesVerdict& verdict, std::string text) {
     };
     mark(verdict.found.wrong_pixels, EditMap::unexplained);
     mark(verdict.found.alpha.wrong_pixels, EditMap::wrong_alpha);
-    const bool is_right = verdict.found.is_right();
-    return {.text = std::move(text),
-            .is_right = is_right,
-            .map = drawn(map),
-            .map_caption = is_right ? "Wrong pixels: none, so all of it is black"
-                                    : "Wrong pixels: pink, or grey if alpha alone is wrong"};
+    return {.map = drawn(map),
+            .map_caption = verdict.found.is_right() ? "Wrong pixels: none, so all of it is black"
+                                                    : "Wrong pixels: pink, or grey if alpha alone is wrong"};
+}
+
+ShownVerdict shown(const oracle::Judgement& judgement, const pipeline::DrawList& list) {
+    return judgement.layers->single ? shown(*judgement.layers->single, list) : shown(*judgement.layers->samples);
+}
+
+void write_files(const SceneQuestion& question, const Session& session, const oracle::Picture& candidate,
+                 const oracle::Judgement& judgement) {
+    const VerdictFiles& files = question.files;
+    if (!files.junit.empty())
+        scenes::write_file(files.junit, oracle::to_junit(std::vector<oracle::JunitCase>{
+                                            {.group = "strata.compare",
+                                             .name = "verdict",
+                                             .failure = judgement.is_right ? "" : one_line(judgement.text)}}));
+    if (files.heat.empty() && files.side.empty() && files.report.empty()) return;
+    const ShownVerdict verdict = shown(judgement, session.scene.list);
+    const oracle::Picture right = right_picture(question, session, candidate);
+    const oracle::Comparison difference = oracle::compare(right, candidate, {}, {});
+    if (!files.heat.empty()) scenes::write_image(files.heat, {.color = oracle::heat_map_with_legend(difference)});
+    if (!files.side.empty())
+        scenes::write_image(files.side, {.color = oracle::beside({oracle::as_shown(right), oracle::as_shown(candidate),
+                                                                  oracle::heat_map(difference), verdict.map})});
+    if (!files.report.empty())
+        write_page(files.report, page_of(question.run.scene, right, candidate, difference, judgement.text, verdict));
 }
 
 oracle::ShowProgress shares_of(Progress& bar) {
     return [&bar](double share) { bar.show(share); };
 }
 
-std::vector<std::string> forgotten(const SceneQuestion& question, const peeling::FrameRequest& input,
-                                   const auto& verdict) {
-    Progress bar("options of the view");
-    return oracle::forgotten_options(input, verdict, camera_in_words(question.run), shares_of(bar));
-}
-
-// The verdict on a picture with several samples per pixel.
-int compare_resolved(const SceneQuestion& question, const Session& session, const oracle::Picture& candidate) {
-    const oracle::TargetImage& colors = colors_of(candidate);
-    const peeling::FrameRequest input = session.request(question.run.render, question.run.scene_options.color_space);
-    const oracle::SamplesVerdict verdict = [&] {
-        Progress bar("verdict");
-        return oracle::judge_samples(input,
-                                     {.colors = colors,
-                                      .is_form_stated = question.is_form_stated,
-                                      .has_alpha = question.has_alpha,
-                                      .algorithm = question.algorithm.empty() ? nullptr : question.run.algorithms[0],
-                                      .progress = shares_of(bar)});
-    }();
-    const std::vector<std::string> hints = forgotten(question, input, verdict);
-    const std::string text = oracle::with_forgotten(to_text(verdict), hints);
-    write_files(question, session, candidate, shown(verdict, text));
-    print(question.json ? oracle::json_with_forgotten(to_json(verdict), hints) : with_painted_verdicts(text));
-    if (!verdict.found.is_right()) warn_of_other_command(candidate.file, question.run, "compare");
-    return verdict.found.is_right() ? 0 : 1;
-}
-
-}  // namespace
-
-namespace {
-
-oracle::verdict::PictureVerdict judged(const SceneQuestion& question, const peeling::FrameRequest& input,
-                                       const oracle::TargetImage& colors) {
-    Progress bar("verdict");
-    return oracle::verdict::judge_picture(
-        input, {.colors = colors,
-                .is_form_stated = question.is_form_stated,
-                .has_alpha = question.has_alpha,
-                .is_frame_linear = question.run.scene_options.color_space == pipeline::ColorSpace::linear,
-                .algorithm = question.algorithm.empty() ? nullptr : question.run.algorithms[0],
-                .progress = shares_of(bar)});
-}
-
-// Whether a picture with decoded colours, or blended in linear light, is right with --color-space linear.
-std::string if_linear(SceneQuestion question, const oracle::verdict::Verdict& found, const oracle::Picture& candidate) {
-    const oracle::TargetImage& colors = colors_of(candidate);
-    using oracle::verdict::RuleKind;
-    const auto is_of_light = [](const oracle::verdict::CheckedAccount& c) {
-        return c.account.rules[0].kind == RuleKind::decoded || c.account.rules[0].kind == RuleKind::blended_linear;
-    };
-    if (question.run.scene_options.color_space == pipeline::ColorSpace::linear || scenes::is_pack(question.run.scene) ||
-        std::ranges::none_of(found.explanations, is_of_light))
-        return "";
+// Whether a picture is right with --color-space linear.
+bool is_right_if_linear(SceneQuestion question, const oracle::Picture& candidate) {
+    if (question.run.scene_options.color_space == pipeline::ColorSpace::linear || scenes::is_pack(question.run.scene))
+        return false;
     question.run.scene_options.color_space = pipeline::ColorSpace::linear;
-    const Session session = open_at_size(question, colors, candidate.file);
+    const Session session = open_at_size(question, colors_of(candidate), candidate.file);
     const peeling::FrameRequest input = session.request(question.run.render, pipeline::ColorSpace::linear);
-    return judged(question, input, colors).is_right() ? "  with --color-space linear the picture is right\n" : "";
+    return oracle::judge_layers(
+               input,
+               {.candidate = candidate, .is_form_stated = question.is_form_stated, .has_alpha = question.has_alpha})
+        .is_right();
 }
 
 }  // namespace
 
 int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate) {
-    const oracle::TargetImage& colors = colors_of(candidate);
-    const Session session = open_at_size(question, colors, candidate.file);
-    if (question.run.sampling.samples > 1) return compare_resolved(question, session, candidate);
-    const pipeline::DrawList& list = session.scene.list;
-    const peeling::FrameRequest input{list, session.view, session.profile, question.run.render,
-                                      question.run.scene_options.color_space};
-    oracle::verdict::PictureVerdict verdict = judged(question, input, colors);
-    verdict.reading += if_linear(question, verdict.found, candidate);
-    verdict.found.distinguishing_command = distinguishing_command(verdict.found);
-    const std::vector<std::string> hints = forgotten(question, input, verdict);
-    const std::string text = oracle::with_forgotten(to_text(verdict, list), hints);
-    write_files(question, session, candidate, shown(verdict, list, text));
-    print(question.json ? oracle::json_with_forgotten(to_json(verdict, list, session.profile.name), hints)
-                        : with_painted_verdicts(text));
-    if (!verdict.is_right()) warn_of_other_command(candidate.file, question.run, "compare");
-    return verdict.is_right() ? 0 : 1;
+    const Session session = open_at_size(question, colors_of(candidate), candidate.file);
+    const peeling::FrameRequest input = session.request(question.run.render, question.run.scene_options.color_space);
+    const oracle::Judgement judgement = [&] {
+        Progress layers("verdict"), view("options of the view");
+        return judge(
+            input,
+            {.candidate = candidate,
+             .is_form_stated = question.is_form_stated,
+             .has_alpha = question.has_alpha,
+             .algorithm = question.algorithm.empty() ? nullptr : question.run.algorithms[0],
+             .camera = camera_in_words(question.run),
+             .tolerances = {.channels = question.has_alpha ? oracle::ColorChannels::all : oracle::ColorChannels::rgb},
+             .is_right_if_linear = [&] { return is_right_if_linear(question, candidate); },
+             .layers = shares_of(layers),
+             .view = shares_of(view)},
+            oracle::Effort::single);
+    }();
+    write_files(question, session, candidate, judgement);
+    print(question.json ? judgement.json : with_painted_verdicts(judgement.text));
+    if (!judgement.is_right) warn_of_other_command(candidate.file, question.run, "compare");
+    return judgement.is_right ? 0 : 1;
 }
 
 }  // namespace strata::tools

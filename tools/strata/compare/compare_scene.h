@@ -29,8 +29,6 @@ struct SceneQuestion {
 
 // "--orbit 30,20"
 [[nodiscard]] std::string camera_in_words(const RunOptions& run);
-// The candidate's colour target. Throws InputError if it has none.
-[[nodiscard]] const oracle::TargetImage& colors_of(const oracle::Picture& candidate);
 // Opens the scene at the candidate's size. InputError names `file` if --size states another one.
 [[nodiscard]] Session open_at_size(SceneQuestion& question, const oracle::TargetImage& target, const std::string& file);
 

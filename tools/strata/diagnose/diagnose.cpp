@@ -11,10 +11,8 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/profile_json.h"
 #include "scenes/packs/pack_scene.h"
-#include "tools/oracle/diagnosis/diagnosis_report.h"
-#include "tools/oracle/diagnosis/distinguishing_scene.h"
 #include "tools/oracle/diagnosis/scenes_diagnosis.h"
-#include "tools/oracle/judge/diagnose_picture.h"
+#include "tools/oracle/judge/judge.h"
 #include "tools/oracle/pack/manifest_value.h"
 #include "tools/oracle/pack/pack_pictures.h"
 #include "tools/oracle/picture/stored_like.h"
@@ -148,51 +146,36 @@ int status_of(oracle::Conclusion conclusion) {
     return conclusion == right || conclusion == other_options || conclusion == right_structure ? 0 : 1;
 }
 
-// Finds the scene of the suite that distinguishes the remaining mistakes: those that produce the same picture, or the
-// best findings.
-void find_distinguishing_scene(oracle::Diagnosis& found) {
-    constexpr std::size_t most = 4;
-    std::vector<const oracle::Mistake*> mistakes;
-    const oracle::Finding& best = found.findings.front();
-    if (found.conclusion == oracle::Conclusion::one_mistake) {
-        mistakes = best.mistakes;
-        mistakes.insert(mistakes.end(), best.alike.begin(), best.alike.end());
-    } else if (found.conclusion == oracle::Conclusion::unknown_mistake && found.structure.empty()) {
-        for (const oracle::Finding& f : found.findings)
-            if (f.mistakes.size() == 1 && f.explained > 0 && mistakes.size() < most) mistakes.push_back(f.mistakes[0]);
-    }
-    found.distinguishing_scene = oracle::distinguishing_scene(mistakes);
-}
-
 // The bars are wiped before the result is printed.
-oracle::PictureDiagnosis diagnosed(const OpenCase& opened, const DiagnoseOptions& options) {
+oracle::Judgement judged(const OpenCase& opened, const DiagnoseOptions& options) {
     const std::vector<pipeline::DeviceProfile> more = more_profiles(options);
     Progress emulations("emulations"), pairs("pairs of mistakes"), layers("verdict by layers");
-    return oracle::diagnose_picture({.input = opened.input(),
-                                     .algorithm = opened.algorithm(),
-                                     .candidate = opened.candidate,
-                                     .tolerances = options.tolerances,
-                                     .is_form_stated = options.alpha_form.has_value(),
-                                     .camera = camera_in_words(opened.options.run),
-                                     .limit = options.limit,
-                                     .more = more,
-                                     .passes = opened.passes_or_null(),
-                                     .layers = shown_by(layers)},
-                                    shown_by(emulations), shown_by(pairs));
+    return judge(opened.input(),
+                 {.candidate = opened.candidate,
+                  .is_form_stated = options.alpha_form.has_value(),
+                  .has_alpha = options.tolerances.channels == oracle::ColorChannels::all,
+                  .algorithm = &opened.algorithm(),
+                  .camera = camera_in_words(opened.options.run),
+                  .more = more,
+                  .tolerances = options.tolerances,
+                  .limit = options.limit,
+                  .passes = opened.passes_or_null(),
+                  .layers = shown_by(layers),
+                  .emulations = shown_by(emulations),
+                  .pairs = shown_by(pairs)},
+                 oracle::Effort::all);
 }
 
 int diagnose_one(const DiagnoseOptions& options) {
     const auto opened = open_case(options);
-    auto [found, comparison, right, made] = diagnosed(*opened, options);
-    find_distinguishing_scene(found);
-    if (found.conclusion != oracle::Conclusion::right) warn_of_other_command(*opened);
+    const oracle::Judgement judgement = judged(*opened, options);
+    if (!judgement.is_right) warn_of_other_command(*opened);
     if (!options.report.empty()) {
         const std::string command = canonical_command("render", opened->options.run, opened->options.run.algorithms);
-        const DiagnosisShown shown{found, comparison, right, opened->candidate};
-        write_page(options.report, diagnosis_page(command, shown));
+        write_page(options.report, diagnosis_page(command, judgement, opened->candidate));
     }
-    print(options.json ? to_json(found, comparison) : to_text(found, comparison));
-    return status_of(found.conclusion);
+    print(options.json ? judgement.json : judgement.text);
+    return judgement.is_right ? 0 : 1;
 }
 
 // The names of the packs in a folder, such as the scenes of the suite, sorted. Empty if the folder is itself a pack, or

@@ -6,6 +6,7 @@
 
 #include "tools/oracle/compare/drawings.h"
 #include "tools/oracle/diagnosis/diagnosis_report.h"
+#include "tools/oracle/judge/picture_diagnosis.h"
 #include "tools/strata/compare/compare_pages.h"
 #include "tools/strata/table.h"
 
@@ -58,14 +59,16 @@ void add_lines(PlainPage& page, const std::string& text) {
 
 }  // namespace
 
-PlainPage diagnosis_page(const std::string& command, const DiagnosisShown& shown) {
+PlainPage diagnosis_page(const std::string& command, const oracle::Judgement& judgement,
+                         const oracle::Picture& candidate) {
+    const oracle::PictureDiagnosis& shown = *judgement.emulations;
     PlainPage page{"Diagnosis", command};
-    add_lines(page, to_text(shown.diagnosis, shown.comparison));
-    add_findings(page, shown.diagnosis);
+    add_lines(page, judgement.text);
+    add_findings(page, shown.found);
     page.heading("Pictures");
     page.begin_pictures();
     page.picture(oracle::as_shown(shown.right), "As it should be");
-    page.picture(oracle::as_shown(shown.candidate), "The candidate");
+    page.picture(oracle::as_shown(candidate), "The candidate");
     add_heat_map(page, shown.comparison);
     page.end_pictures();
     if (shown.comparison.equal) return page;

@@ -6,6 +6,7 @@
 #include "scenes/files/atomic_file.h"
 #include "tools/oracle/explain/history_report.h"
 #include "tools/oracle/fragments/form.h"
+#include "tools/oracle/judge/asked_picture.h"
 #include "tools/oracle/search/edits.h"
 #include "tools/strata/command.h"
 #include "tools/strata/compare/compare_scene.h"

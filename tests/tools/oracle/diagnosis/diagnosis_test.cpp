@@ -96,7 +96,7 @@ TEST_CASE(
     const std::string text = to_text(found, compare(bench.mistake_renderer.right(), spoiled));
     CHECK_THAT(text, Catch::StartsWith("none that is known"));
     CHECK_THAT(text, Catch::Contains("compare: different"));
-    const auto document = nlohmann::json::parse(to_json(found, compare(bench.mistake_renderer.right(), spoiled)));
+    const nlohmann::json document = json_of(found, compare(bench.mistake_renderer.right(), spoiled));
     CHECK(document["verdict"] == "unknown_mistake");
     CHECK(document["findings"].size() == found.findings.size());
     CHECK(document["comparison"]["equal"] == false);

@@ -67,9 +67,7 @@ def judged(strata, number, algorithm):
     with tempfile.TemporaryDirectory() as temporary:
         files = pictures(strata, pathlib.Path(temporary), scene, options, algorithm)
         for file in files or []:
-            # compare has no reference of several samples for an algorithm that is not exact.
-            is_verdict = "--samples" not in options or algorithm != "weighted_average"
-            for command in ("compare", "diagnose") if is_verdict else ("diagnose",):
+            for command in ("compare", "diagnose"):
                 said = run([strata, command, scene, file, *options, "--algorithm", algorithm])
                 count += 1
                 if said.returncode != 0:

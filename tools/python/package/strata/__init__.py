@@ -138,10 +138,10 @@ def compare(reference: Comparable, candidate: Comparable, *, color: int = 0, dep
     return _strata._compare(_picture_of(reference), _picture_of(candidate), tolerances)
 
 
-def judge(scene: _strata.Scene, candidate: Comparable, *, profile: str = "geforce8", **options: Any) -> Judgement:
-    """Whether a picture of the scene is right, whatever its formats and rounding: is_right, sentence, mistakes, forgotten, leads, text. The picture
-    has the size of the candidate; of one with several samples per pixel, `samples` is their number."""
-    return _strata._judge(scene, _picture_of(candidate), profile, **options)
+def judge(scene: _strata.Scene, candidate: Comparable, algorithm: str = "", *, profile: str = "geforce8", **options: Any) -> Judgement:
+    """Whether a picture of the scene by the algorithm, or by any exact one, is right, whatever its formats and rounding: is_right, state, sentence,
+    mistakes, forgotten, leads, text. The picture has the size of the candidate; of one with several samples per pixel, `samples` is their number."""
+    return _strata._judge(scene, _picture_of(candidate), profile, algorithm, **options)
 
 
 def diagnose(scene: _strata.Scene, candidate: Comparable, algorithm: str = "dual", *, profile: str = "ideal",

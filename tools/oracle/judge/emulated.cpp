@@ -1,0 +1,115 @@
+// tools/oracle/judge/emulated.cpp - finds the emulation that gives a picture, by a square of it first (emulated.h).
+#include "tools/oracle/judge/emulated.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "pipeline/device/profile.h"
+#include "tools/oracle/diagnosis/diagnosis_report.h"
+#include "tools/oracle/diagnosis/evidence.h"
+#include "tools/oracle/emulations/allowed_options.h"
+#include "tools/oracle/picture/stored_like.h"
+
+namespace strata::oracle {
+
+namespace {
+
+TargetImage cut(const TargetImage& target, const rasterizer::Rect& part) {
+    TargetImage some = target;
+    some.width = part.x1 - part.x0;
+    some.height = part.y1 - part.y0;
+    some.codes.clear();
+    const auto channels = static_cast<std::ptrdiff_t>(target.channels);
+    for (std::ptrdiff_t y = part.y0; y < part.y1; ++y) {
+        const auto row = target.codes.begin() + y * target.width * channels;
+        some.codes.insert(some.codes.end(), row + part.x0 * channels, row + part.x1 * channels);
+    }
+    return some;
+}
+
+Picture cut(const Picture& picture, const rasterizer::Rect& part) {
+    Picture some{.file = picture.file, .targets = {}};
+    for (const TargetImage& target : picture.targets) some.targets.push_back(cut(target, part));
+    return some;
+}
+
+class EmulationSearch {
+  public:
+    EmulationSearch(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm, const AskedPicture& asked,
+                    const rasterizer::Rect& part)
+        : algorithm_{algorithm},
+          asked_{asked},
+          space_{input.space},
+          part_{rasterizer::intersection(part, {0, 0, input.options.width, input.options.height})},
+          some_{cut(asked.candidate, part_)},
+          whole_{input, algorithm, has_depth(asked.candidate) ? Depths::made : Depths::left_out, asked.limit},
+          square_{whole_.within(part_)} {}
+
+    [[nodiscard]] Emulated found() const {
+        if (is_seen(whole_.right(), asked_.candidate)) return {.kind = Emulated::Kind::right};
+        const std::vector<Mistake> options = allowed_options(algorithm_, whole_.right_run(), asked_.more);
+        for (const std::span<const Mistake> all : {std::span<const Mistake>{options}, catalogue()})
+            if (Emulated one = among(all); one.kind != Emulated::Kind::none) return one;
+        return {};
+    }
+
+  private:
+    [[nodiscard]] bool is_seen(const Picture& picture, const Picture& candidate) const {
+        return std::ranges::all_of(agreement(stored_like(picture, candidate, space_), candidate, asked_.tolerances),
+                                   std::identity{});
+    }
+
+    [[nodiscard]] bool may_be(const Mistake& mistake) const {
+        if (mistake.part == ChangedPart::picture) return is_seen(cut(changed(whole_.right(), mistake), part_), some_);
+        const std::optional<Picture> picture = square_.with(mistake);
+        return picture && is_seen(cut(*picture, part_), some_);
+    }
+
+    [[nodiscard]] Emulated among(std::span<const Mistake> all) const {
+        std::vector<char> may(all.size(), 0);
+        for_all(all.size(), {}, [&](std::size_t i) { may[i] = may_be(all[i]) ? 1 : 0; });
+        Emulated one;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (may[i] == 0) continue;
+            const std::optional<Picture> picture = whole_.with(all[i]);
+            if (!picture || !is_seen(*picture, asked_.candidate)) continue;
+            std::string words = description_of({&all[i]});
+            if (one.kind != Emulated::Kind::none)
+                one.alike.push_back(std::move(words));
+            else
+                one = {.kind = all[i].is_allowed ? Emulated::Kind::other_options : Emulated::Kind::mistakes,
+                       .is_single = true,
+                       .words = std::move(words)};
+        }
+        return one;
+    }
+
+    const peeling::Algorithm& algorithm_;
+    const AskedPicture& asked_;
+    pipeline::ColorSpace space_;
+    rasterizer::Rect part_;
+    Picture some_;
+    MistakeRenderer whole_, square_;
+};
+
+}  // namespace
+
+Emulated emulated_of(const Diagnosis& d) {
+    const Finding& best = d.findings.front();
+    if ((best.agreeing != d.pixels && !d.is_nearly) || d.passes_contradict) return {};
+    Emulated found{.kind = best.mistakes.empty()                                      ? Emulated::Kind::right
+                           : std::ranges::all_of(best.mistakes, &Mistake::is_allowed) ? Emulated::Kind::other_options
+                                                                                      : Emulated::Kind::mistakes,
+                   .is_exact = !d.is_nearly,
+                   .is_single = best.mistakes.size() == 1,
+                   .words = description_of(best.mistakes)};
+    for (const Mistake* mistake : best.alike) found.alike.push_back(description_of({mistake}));
+    return found;
+}
+
+Emulated emulated_alone(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
+                        const AskedPicture& asked, const rasterizer::Rect& part) {
+    return EmulationSearch{input, algorithm, asked, part}.found();
+}
+
+}  // namespace strata::oracle
