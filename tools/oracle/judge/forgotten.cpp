@@ -1,5 +1,5 @@
-// tools/oracle/judge/forgotten.cpp - tries the options that a user may have forgotten (camera, background, samples) and
-// decides whether one makes the picture right (forgotten.h).
+// tools/oracle/judge/forgotten.cpp - tries the options that a user may have forgotten (alpha, background, samples,
+// camera) and decides whether one makes the picture right (forgotten.h).
 #include "tools/oracle/judge/forgotten.h"
 
 #include <fmt/format.h>
@@ -15,6 +15,7 @@
 #include "scenes/numbers/srgb_encode.h"
 #include "tools/oracle/fragments/fragments.h"
 #include "tools/oracle/judge/samples_verdict.h"
+#include "tools/oracle/judge/seen_alpha.h"
 #include "tools/oracle/verdict/other_profile.h"
 #include "tools/oracle/verdict/picture_verdict.h"
 
@@ -128,23 +129,46 @@ peeling::RenderOptions options_of_one_sample(const peeling::FrameRequest& input)
 
 // Another way to draw the scene.
 struct SceneVariant {
-    std::string words;  // "--samples 4"
+    std::string words{};  // "--samples 4"
     std::optional<Color> background{};
+    std::optional<float> alpha{};  // --alpha
     int samples = 1;
     double right = 0, up = 0;  // moved by pixels
 };
 
-std::vector<SceneVariant> ways(const peeling::FrameRequest& input, const std::optional<SeenBackground>& seen) {
+// Without the --alpha given, and with each that the picture shows.
+std::vector<SceneVariant> with_other_alphas(const peeling::FrameRequest& input, const Colors& picture,
+                                            const std::vector<std::uint32_t>& wrong,
+                                            const std::optional<Color>& background) {
+    std::vector<SceneVariant> all;
+    if (input.options.sampling.samples > 1) return all;
+    if (input.options.alpha) all.push_back({.background = background, .samples = 1});
+    const Color behind = background.value_or(given_background(input));
+    const rasterizer::Rect part = verdict::most_wrong(wrong, picture.width());
+    for (const float alpha : seen_alphas(input, picture, behind, part))
+        all.push_back(
+            {.words = "--alpha " + number_of(double{alpha}), .background = background, .alpha = alpha, .samples = 1});
+    return all;
+}
+
+std::vector<SceneVariant> ways(const peeling::FrameRequest& input, const Colors& picture,
+                               const std::vector<std::uint32_t>& wrong, const std::optional<SeenBackground>& seen) {
     std::vector<SceneVariant> all;
     for (const bool is_seen : {false, true}) {
         if (is_seen && !seen) continue;
         const std::string words = is_seen ? "--background " + words_of(in_srgb(seen->color, input.space)) : "";
         const auto add = [&](const std::string& more, int samples, double right, double up) {
-            SceneVariant way{words + (words.empty() || more.empty() ? "" : " ") + more, {}, samples, right, up};
+            SceneVariant way{
+                words + (words.empty() || more.empty() ? "" : " ") + more, {}, input.options.alpha, samples, right, up};
             if (is_seen) way.background = seen->color;
             all.push_back(std::move(way));
         };
         if (is_seen) add("", input.options.sampling.samples, 0, 0);
+        const std::optional<Color> background = is_seen ? std::optional{seen->color} : std::nullopt;
+        for (SceneVariant& way : with_other_alphas(input, picture, wrong, background)) {
+            if (is_seen) way.words = words + (way.words.empty() ? "" : " ") + way.words;
+            all.push_back(std::move(way));
+        }
         for (const int samples : {4, 2, 8, 1})
             if (samples != input.options.sampling.samples) add(fmt::format("--samples {}", samples), samples, 0, 0);
         if (input.options.sampling.samples > 1) continue;
@@ -178,6 +202,7 @@ bool is_right_so(const peeling::FrameRequest& input, const SceneVariant& way, co
     peeling::FrameRequest so{input.list, view, input.profile, input.options, input.space};
     so.options.sampling.samples = way.samples;
     if (way.samples == 1) so.options = options_of_one_sample(input);
+    so.options.alpha = way.alpha;
     if (way.background)
         for (std::size_t c = 0; c < 3; ++c) so.options.background[c] = static_cast<float>((*way.background)[c]);
     if (way.samples == 1) return verdict::right_by_rules(so, {"", input.profile}, picture, wrong).has_value();
@@ -237,7 +262,25 @@ Agreeing agreeing(const Expected& right, const Colors& picture, const Color& bac
     return found;
 }
 
+// Of a variant with which the picture is right.
+std::string sentence_of(const SceneVariant& way, const peeling::FrameRequest& input) {
+    const std::string where = moved(way);
+    if (input.options.alpha && !way.alpha)
+        return "without --alpha" + (way.words.empty() ? "" : " and with " + way.words) + " the picture is right";
+    if (where.empty()) return fmt::format("looks forgotten: {}; with it the picture is right", way.words);
+    if (way.words.empty()) return where + "; apart from that the picture is right";
+    return fmt::format("looks forgotten: {}; and {}", way.words, where);
+}
+
 }  // namespace
+
+Forgotten forgotten_alpha(const peeling::FrameRequest& input, const Colors& picture,
+                          const std::vector<std::uint32_t>& wrong_pixels) {
+    for (const SceneVariant& way : with_other_alphas(input, picture, wrong_pixels, std::nullopt))
+        if (is_right_so(input, way, picture, wrong_pixels))
+            return {.sentences = {sentence_of(way, input)}, .makes_right = true};
+    return {};
+}
 
 Forgotten forgotten_options(const peeling::FrameRequest& input, const Colors& picture,
                             const std::vector<std::uint32_t>& wrong_pixels, const std::string& camera,
@@ -248,17 +291,11 @@ Forgotten forgotten_options(const peeling::FrameRequest& input, const Colors& pi
     const Expected right = expected(scene);
     const Color given = given_background(input);
     const auto seen = seen_background(right, picture, given);
-    const std::vector<SceneVariant> tried = ways(input, seen);
+    const std::vector<SceneVariant> tried = ways(input, picture, wrong_pixels, seen);
     for (const SceneVariant& way : tried) {
         if (progress) progress(static_cast<double>(&way - tried.data()) / static_cast<double>(tried.size()));
         if (!is_right_so(input, way, picture, wrong_pixels)) continue;
-        const std::string where = moved(way);
-        if (where.empty())
-            sentences.push_back(fmt::format("looks forgotten: {}; with it the picture is right", way.words));
-        else if (way.words.empty())
-            sentences.push_back(where + "; apart from that the picture is right");
-        else
-            sentences.push_back(fmt::format("looks forgotten: {}; and {}", way.words, where));
+        sentences.push_back(sentence_of(way, input));
         found.makes_right = true;
         return found;
     }

@@ -1,10 +1,11 @@
-// tools/oracle/judge/forgotten.h - which option of the view looks forgotten if a picture is wrong: --background,
-// --samples or --camera.
+// tools/oracle/judge/forgotten.h - which option of the view looks forgotten if a picture is wrong: --alpha,
+// --background, --samples or --camera.
 //
 // Rule     The colour of the pixels where nothing is drawn is the picture's background. With that background, and with
-//          the one given, the scene is judged with 1, 2, 4 and 8 samples per pixel, with either origin, and moved by
-//          half a pixel. What makes the picture right is reported as such. Otherwise hints are reported: another
-//          background; wrong pixels at edges between their neighbours' colours; a picture that agrees almost nowhere.
+//          the one given, the scene is judged with the --alpha that the picture shows (seen_alpha.h), or without the
+//          one given, with 1, 2, 4 and 8 samples per pixel, with either origin, and moved by half a pixel. What makes
+//          the picture right is reported as such. Otherwise hints are reported: another background; wrong pixels at
+//          edges between their neighbours' colours; a picture that agrees almost nowhere.
 // Tests    tests/tools/strata/compare/forgotten_test.cpp
 #pragma once
 #include <string>
@@ -28,5 +29,9 @@ struct Forgotten {
 [[nodiscard]] Forgotten forgotten_options(const peeling::FrameRequest& input, const verdict::Colors& picture,
                                           const std::vector<std::uint32_t>& wrong_pixels, const std::string& camera,
                                           const ShowProgress& progress = {});
+
+// Of a picture that a mistake explains: only --alpha is tried, since the mistake may be its effect.
+[[nodiscard]] Forgotten forgotten_alpha(const peeling::FrameRequest& input, const verdict::Colors& picture,
+                                        const std::vector<std::uint32_t>& wrong_pixels);
 
 }  // namespace strata::oracle

@@ -91,7 +91,11 @@ class Judge {
         }
         if (layers_->is_right()) return layers_->lost_at_ties() > 0 && is_of_one_mistake ? by_emulation() : by_layers();
         if (is_right_run) return by_emulation();
-        if (layers_->is_explained()) return by_layers();
+        if (layers_->is_explained()) {
+            if (!layers_->wrong_colors().empty())
+                take(forgotten_alpha(input_, layers_->colors(), layers_->wrong_colors()));
+            return by_layers();
+        }
         if (is_of_one_mistake) return by_emulation();
         const bool is_open = !is_right_in_another_view() && !layers_->is_undecided();
         if (is_open && emulated_.kind == Kind::mistakes) return by_emulation();
@@ -101,10 +105,13 @@ class Judge {
     // Asks which option of the view looks forgotten.
     [[nodiscard]] bool is_right_in_another_view() {
         if (layers_->wrong_colors().empty()) return false;
-        const Forgotten view =
-            forgotten_options(input_, layers_->colors(), layers_->wrong_colors(), asked_.camera, asked_.view);
-        found_.forgotten = view.sentences;
-        return makes_right_ = view.makes_right;
+        take(forgotten_options(input_, layers_->colors(), layers_->wrong_colors(), asked_.camera, asked_.view));
+        return makes_right_;
+    }
+
+    void take(Forgotten view) {
+        found_.forgotten = std::move(view.sentences);
+        makes_right_ = view.makes_right;
     }
 
     void by_layers() {

@@ -43,6 +43,27 @@ TEST_CASE("a forgotten option of the view is named with what makes the picture r
     }
 }
 
+TEST_CASE("a forgotten --alpha is named by its number by compare and diagnose, and one too much", "[long]") {
+    const Folder folder;
+    for (const Forgotten& option : {
+             Forgotten{"--alpha 0.5", "", "  looks forgotten: --alpha 0.5; with it the picture is right"},
+             Forgotten{"--alpha 0.35 --background 1,1,1", "",
+                       "  looks forgotten: --background 1,1,1 --alpha 0.35; with it the picture is right"},
+             Forgotten{"--alpha 0.6", "--alpha 0.9", "  looks forgotten: --alpha 0.6; with it the picture is right"},
+             Forgotten{"", "--alpha 0.9", "  without --alpha the picture is right"},
+         }) {
+        REQUIRE(
+            shell(folder, "strata render teapot --size 48x36 -q -o port.png --algorithm a_buffer " + option.made_with)
+                .status == 0);
+        for (const std::string command : {"compare", "diagnose"}) {
+            const CommandResult found = shell(folder, "strata " + command + " teapot port.png " + option.given);
+            INFO(command << option.made_with << ": " << found.out << found.err);
+            CHECK(found.status == 1);
+            CHECK(second_line(found) == option.second_line);
+        }
+    }
+}
+
 TEST_CASE("a picture from another camera is named as such with the view that it was compared with") {
     const Folder folder;
     const CommandResult found = compared(folder, {"--orbit 200,60 --background 1,1,1", "", ""});
