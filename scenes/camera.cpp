@@ -123,6 +123,11 @@ pipeline::View orbit_view(const Bounds& bounds, double azimuth_degrees, double e
     return look_at(orbit_camera(bounds, azimuth_degrees, elevation_degrees), aspect);
 }
 
+ClipConvention view_convention(const rasterizer::RasterState& state) noexcept {
+    using rasterizer::DepthOrder;
+    return {state.clip_depth, state.depth_near > state.depth_far ? DepthOrder::less : state.depth_order};
+}
+
 pipeline::View with_clip_convention(const pipeline::View& view, const ClipConvention& from, const ClipConvention& to) {
     using rasterizer::ClipDepth;
     const FloatEnvironment environment;

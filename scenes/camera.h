@@ -35,6 +35,9 @@ struct ClipConvention {
     rasterizer::DepthOrder depth_order = rasterizer::DepthOrder::less;
     friend bool operator==(const ClipConvention&, const ClipConvention&) = default;
 };
+// The convention of a view that is drawn in this state. GREATER over a reversed depth range takes a view that is not
+// reversed: the range does it. Reversed twice, the farthest surfaces would be drawn.
+[[nodiscard]] ClipConvention view_convention(const rasterizer::RasterState& state) noexcept;
 // The same volume under another convention: z and w are the third and fourth rows of the projection, in binary64. To 0
 // to 1: z' = (z + w) / 2; from it: z' = 2 z - w; near exchanged with far: z' = w - z, or -z where z runs from -w.
 [[nodiscard]] pipeline::View with_clip_convention(const pipeline::View& view, const ClipConvention& from,

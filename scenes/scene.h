@@ -26,6 +26,13 @@ struct SceneCamera {
     double yfov = 0, aspect = 0, xmag = 0, ymag = 0, znear = 0, zfar = 0;  // zfar 0: infinite (perspective)
 };
 
+// A material that is OPAQUE although something of it has an alpha below 1, which is then not drawn.
+struct OpaqueWithAlpha {
+    std::string material;
+    std::string of;  // "factor", "texture" or "vertex colours"
+    friend bool operator==(const OpaqueWithAlpha&, const OpaqueWithAlpha&) = default;
+};
+
 struct Scene {
     std::string name;
     pipeline::DrawList list;
@@ -36,6 +43,9 @@ struct Scene {
     std::vector<SceneCamera> cameras;
     std::vector<std::string> extensions;  // used by the file
     std::vector<std::string> warnings;    // one message each: ignored features, with their JSON pointer
+    std::vector<OpaqueWithAlpha> opaque_with_alpha{};
+    // Added to every place of the file (SceneOptions::recentre).
+    Vec3d moved_by{0, 0, 0};
     // The index of this scene in the file, and the number of scenes. A procedural scene is 0 of 1.
     int scene_index = 0, scene_count = 1;
 };
@@ -53,6 +63,7 @@ struct SceneOptions {
     pipeline::ColorSpace color_space = pipeline::ColorSpace::encoded;
     bool light = true;                   // false: all materials are unlit (--no-light)
     std::vector<MaterialAlpha> alpha{};  // --alpha NAME=A; applies to every material of that name
+    bool recentre = false;               // moves the middle of the bounds to the origin (far_places.h)
 };
 
 // `spec` is a path to a .gltf, .glb, .obj, .ply, .stl or .off file or to a pack, "-" for a glTF file from standard

@@ -3,6 +3,7 @@ set(strata_scenes_sources
   blended_materials.cpp
   bounds.cpp
   camera.cpp
+  far_places.cpp
   flat_normals.cpp
   inside_folder.cpp
   nearest_name.cpp
@@ -46,6 +47,7 @@ set(strata_scenes_sources
   models/load_model_module.cpp
   models/model_counts.cpp
   models/models.cpp
+  models/obj_centre.cpp
   numbers/elementary.cpp
   numbers/srgb_encode.cpp
   packs/json_fields.cpp
@@ -91,6 +93,7 @@ set(strata_scenes_with_files
   models/load_model_module.cpp
   models/model_counts.cpp
   models/models.cpp
+  models/obj_centre.cpp
   packs/json_fields.cpp
   packs/new_folder.cpp
   packs/npy.cpp

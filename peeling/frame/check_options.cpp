@@ -92,8 +92,7 @@ std::optional<Refusal> check_order(const RenderOptions& options, DepthFormat for
     if (options.raster.depth_order == rasterizer::DepthOrder::less) {
         if (options.raster.depth_near > options.raster.depth_far)
             return Refusal{"peeling with LESS over a reversed depth range", "",
-                           "use a depth range with near below far; --depth-order greater with such a range reverses "
-                           "the projection"};
+                           "use a depth range with near below far, or --depth-order greater beside this one"};
         return std::nullopt;
     }
     if (format != DepthFormat::d32f)

@@ -19,6 +19,24 @@ bool is_implemented(const std::string& name) {
     return std::find(implemented.begin(), implemented.end(), name) != implemented.end();
 }
 
+// What a file looks like without an extension; "" if that is not known.
+std::string effect_of(const std::string& extension) {
+    constexpr std::pair<std::string_view, std::string_view> effects[]{
+        {"KHR_lights_punctual", ": the light is at the eye instead"},
+        {"KHR_materials_emissive_strength", ": what glows is darker"},
+        {"KHR_materials_volume", ": nothing is tinted by the way of light through it"},
+        {"KHR_materials_ior", ": nothing is refracted"},
+        {"KHR_materials_dispersion", ": nothing is refracted"},
+        {"KHR_materials_diffuse_transmission", ": surfaces let no light through to their other side"},
+        {"KHR_animation_pointer", ": everything stays as written"},
+        {"MSFT_lod", ": the finest level is drawn"}};
+    for (const auto& [name, effect] : effects)
+        if (name == extension) return std::string(effect);
+    for (const std::string_view part : {"clearcoat", "sheen", "specular", "iridescence", "anisotropy"})
+        if (extension == "KHR_materials_" + std::string(part)) return ": highlights differ, alpha does not";
+    return "";
+}
+
 struct Version {
     std::uint64_t major = 0, minor = 0;
 };
@@ -90,7 +108,8 @@ void check_extensions(const JsonAt& root, Warnings& warnings, Faults& faults) {
     faults.collect_each(root, "extensionsUsed", [&](const JsonAt& used) {
         // Each material that transmits light has a warning of its own (material.cpp).
         if (!is_implemented(used.string()) && used.string() != "KHR_materials_transmission")
-            warnings.add(used.location().pointer, "extension " + one_line(used.string()) + " is ignored");
+            warnings.add(used.location().pointer,
+                         "extension " + one_line(used.string()) + " is ignored" + effect_of(used.string()));
     });
     const auto extensions = root.find("extensions");
     if (const auto variants = extensions ? extensions->find("KHR_materials_variants") : std::nullopt)

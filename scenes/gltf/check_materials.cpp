@@ -99,10 +99,14 @@ void check_material(const JsonAt& material, const JsonAt& root, Warnings& warnin
         const auto unlit = extensions->find("KHR_materials_unlit");
         if (unlit) (void)unlit->object();
     }
-    if (const auto it = material.find("normalTexture")) warnings.add(it->location().pointer, "normal maps are ignored");
-    if (const auto it = material.find("occlusionTexture")) warnings.add(it->location().pointer, "occlusion is ignored");
+    if (const auto it = material.find("normalTexture"))
+        warnings.add(it->location().pointer,
+                     "normal maps are ignored: surfaces are lit by the normals of their vertices");
+    if (const auto it = material.find("occlusionTexture"))
+        warnings.add(it->location().pointer, "occlusion is ignored: creases are lighter");
     for (const char* key : {"emissiveTexture", "emissiveFactor"})
-        if (const auto it = material.find(key)) warnings.add(it->location().pointer, "emission is ignored");
+        if (const auto it = material.find(key))
+            warnings.add(it->location().pointer, "emission is ignored: what glows is darker");
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ class SceneBuilder {
           instanced_left_{limits.instanced},
           buffers_{document, budget_},
           accessors_{document, model_, buffers_},
-          materials_{{document, model_, buffers_, budget_, warnings, options, scene_.list}},
+          materials_{{document, model_, buffers_, budget_, warnings, options, scene_.list, scene_.opaque_with_alpha}},
           skins_{document, model_, accessors_, budget_} {
         // The file's own bytes count; each buffer adds its bytes when it is read.
         budget_.allow_elements(16 * document.size);
@@ -128,8 +128,10 @@ class SceneBuilder {
             const tinygltf::Primitive& primitive = mesh.primitives[p];
             const LoadedMaterial& material = materials_[primitive.material];
             const auto joints = joints_of(pose, primitives[p]);
+            bool ignores_alpha = false;
             auto loaded = load_primitive({primitive, primitives[p].location(), material, accessors_, budget_, warnings_,
-                                          options_.color_space, primitives[p], pose, joints});
+                                          options_.color_space, primitives[p], pose, joints, ignores_alpha});
+            if (ignores_alpha) materials_.note_alpha(material, "vertex colours");
             if (!loaded) continue;
             loaded->name = mesh.primitives.size() == 1 ? name : name + "/" + std::to_string(p);
             drawables.push_back(

@@ -50,9 +50,11 @@ int texcoord_set(const JsonAt& info) {
     return replaced ? replaced->json().get<int>() : info.json().value("texCoord", 0);
 }
 
-// Every fourth code is an alpha.
-void make_opaque(std::vector<std::uint8_t>& texels) {
-    for (std::size_t i = 3; i < texels.size(); i += 4) texels[i] = 255;
+// Every fourth code is an alpha. Returns whether one was below 1.
+bool make_opaque(std::vector<std::uint8_t>& texels) {
+    bool had_alpha = false;
+    for (std::size_t i = 3; i < texels.size(); i += 4) had_alpha |= std::exchange(texels[i], std::uint8_t{255}) < 255;
+    return had_alpha;
 }
 
 }  // namespace
@@ -81,12 +83,23 @@ LoadedMaterial Materials::load(int material) {
     if (material >= 0) read(static_cast<std::size_t>(material), made, loaded);
     loaded.is_opaque = made.alpha_mode == AlphaMode::opaque;
     // glTF 2.0, 3.9.4: OPAQUE ignores alpha wherever it comes from.
+    const bool loses_factor = loaded.is_opaque && made.front[3] < 1;
+    const bool loses_texture =
+        loaded.is_opaque && made.texture >= 0 && textures_with_alpha_.contains(static_cast<std::size_t>(made.texture));
     if (loaded.is_opaque) made.front[3] = 1;
     made.front = made.back = frame_color(made.front, c_.options.color_space);
     loaded.is_unlit = made.unlit = made.unlit || !c_.options.light;
     loaded.index = static_cast<std::uint32_t>(c_.list.materials.size());
     c_.list.materials.push_back(std::move(made));
+    if (loses_factor) note_alpha(loaded, "factor");
+    if (loses_texture) note_alpha(loaded, "texture");
     return loaded;
+}
+
+void Materials::note_alpha(const LoadedMaterial& material, const std::string& of) {
+    OpaqueWithAlpha note{c_.list.materials[material.index].name, of};
+    auto& notes = c_.opaque_with_alpha;
+    if (std::ranges::find(notes, note) == notes.end()) notes.push_back(std::move(note));
 }
 
 void Materials::read(std::size_t material, pipeline::Material& made, LoadedMaterial& loaded) {
@@ -152,7 +165,7 @@ pipeline::Texture Materials::load_texture(const tinygltf::Texture& texture, bool
     // In an encoded frame texels are used as stored; in a linear one the sampler decodes them first.
     made.decode_srgb = c_.options.color_space == pipeline::ColorSpace::linear;
     made.texels = load_image(texture.source, made);
-    if (is_opaque) make_opaque(made.texels);
+    if (is_opaque && make_opaque(made.texels)) textures_with_alpha_.insert(c_.list.textures.size());
     return made;
 }
 

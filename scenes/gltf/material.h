@@ -11,6 +11,7 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "scenes/gltf/document/buffers.h"
@@ -45,11 +46,14 @@ class Materials {
         Warnings& warnings;
         const SceneOptions& options;
         pipeline::DrawList& list;
+        std::vector<OpaqueWithAlpha>& opaque_with_alpha;
     };
     explicit Materials(const Context& context) : c_{context} {}
 
     // A material is added to the draw list on first use, so unused ones cost nothing.
     const LoadedMaterial& operator[](int material);  // -1: glTF's default material
+    // Notes an alpha below 1 that an opaque material ignores.
+    void note_alpha(const LoadedMaterial& material, const std::string& of);
 
   private:
     [[nodiscard]] LoadedMaterial load(int material);
@@ -61,6 +65,7 @@ class Materials {
 
     Context c_;
     std::map<int, LoadedMaterial> materials_;
+    std::set<std::size_t> textures_with_alpha_;  // of those that were made opaque
     // Keyed by texture and opacity: an opaque material needs texels with alpha 1, so a shared texture may be loaded
     // twice.
     std::map<std::pair<int, bool>, int> textures_;

@@ -103,6 +103,7 @@ std::vector<pipeline::Rgba> read_colors(const PrimitiveSource& s, const Indices&
     bool is_clamped = false;
     read_finite(s, "COLOR_0", vertices, [&](std::array<float, 4> value, std::size_t components) {
         // A colour without alpha has alpha 1, glTF 2.0, 3.7.2.1; for an opaque material stored alpha is ignored.
+        s.ignores_alpha |= components == 4 && s.material.is_opaque && value[3] < 1;
         if (components == 3 || s.material.is_opaque) value[3] = 1;
         is_clamped |= std::any_of(value.begin(), value.end(), [](float f) { return f < 0 || f > 1; });
         colors.push_back(frame_color({value[0], value[1], value[2], value[3]}, s.color_space));

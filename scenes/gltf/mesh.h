@@ -27,6 +27,7 @@ struct PrimitiveSource {
     JsonAt json;  // the primitive
     const Pose& pose;
     std::span<const pipeline::Matrix> joints;  // of the pose's skin; empty: not skinned
+    bool& ignores_alpha;                       // set if an opaque material ignores the alpha of a vertex colour
 };
 
 // Empty if the primitive has no triangle.

@@ -23,6 +23,7 @@
 #include "scenes/memory_limit.h"
 #include "scenes/models/load_model_module.h"
 #include "scenes/models/model_counts.h"
+#include "scenes/models/obj_centre.h"
 #include "scenes/numbers/srgb_encode.h"
 
 namespace strata::scenes {
@@ -117,6 +118,8 @@ class ModelScene {
         const auto read = [&](const std::string& file) -> std::vector<std::byte> {
             try {
                 std::vector<std::byte> bytes = folder_.read(file);
+                if (has_materials() && fs::path(file).lexically_normal() == fs::path(path_).filename())
+                    move_to_origin(bytes);
                 if (bytes.empty()) missing.insert(in_quotes(file));
                 return bytes;
             } catch (const std::exception&) {
@@ -131,6 +134,14 @@ class ModelScene {
                 "its materials are drawn white: found none of the material libraries {} in the model's folder",
                 fmt::join(missing, ", ")));
         return model;
+    }
+
+    void move_to_origin(std::vector<std::byte>& obj) {
+        std::string text{reinterpret_cast<const char*>(obj.data()), obj.size()};
+        place_ = move_obj_to_origin(text);
+        if (place_ == Vec3d{0, 0, 0}) return;
+        const auto bytes = std::as_bytes(std::span{text});
+        obj.assign(bytes.begin(), bytes.end());
     }
 
     void add_material(const ModelMaterial& from) {
@@ -201,6 +212,7 @@ class ModelScene {
             make_flat(mesh);
         scene_.list.instances.push_back({.mesh = static_cast<std::uint32_t>(scene_.list.meshes.size()),
                                          .material = static_cast<std::uint32_t>(from.material)});
+        for (std::size_t i = 0; i < 3; ++i) scene_.list.instances.back().model[3][i] = place_[i];
         scene_.list.meshes.push_back(std::move(mesh));
     }
 
@@ -209,6 +221,7 @@ class ModelScene {
     ModelFolder folder_;
     Scene scene_;
     std::map<std::string, int> textures_;
+    Vec3d place_{0, 0, 0};  // of an OBJ that was moved to the origin
 };
 
 bool has_one_of(const std::string& path, std::initializer_list<std::string_view> endings) {

@@ -6,6 +6,7 @@
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/blended_materials.h"
+#include "scenes/far_places.h"
 #include "scenes/memory_limit.h"
 #include "scenes/models/models.h"
 #include "scenes/nearest_name.h"
@@ -207,6 +208,8 @@ Scene load_scene(const std::string& spec, const SceneOptions& options) {
     Scene scene = loaded(spec, options);
     blend_materials(scene.list, options.alpha, spec);
     warn_of_scale_0(spec, scene);
+    warn_of_far_places(scene);
+    if (options.recentre) recentre(scene);
     return scene;
 }
 

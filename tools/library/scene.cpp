@@ -150,7 +150,7 @@ View Scene::view(int width, int height, const rasterizer::RasterState& raster) c
     if (own_view_) return *own_view_;
     if (!look_at_ && !orbit_ && is_pack_) return *scene_.own_view;
     const auto in_convention = [&](const View& view) {
-        return scenes::with_clip_convention(view, {}, {raster.clip_depth, raster.depth_order});
+        return scenes::with_clip_convention(view, {}, scenes::view_convention(raster));
     };
     if (look_at_) return in_convention(scenes::look_at(*look_at_, aspect));
     if (!orbit_ && !is_loaded_) return {};

@@ -91,6 +91,8 @@ std::vector<OptionField> view_fields() {
             reading, "color-space", color_spaces,
             "blend sRGB values as they are, or decoded to linear light (default encoded)"),
         flag<&PictureRequest::scene_options, &SceneOptions::light>(reading, "light", "draw every material unlit"),
+        flag<&PictureRequest::scene_options, &SceneOptions::recentre>(
+            reading, "recentre", "move the middle of the scene's bounds to the origin, as engines do with maps"),
         joint(view,
               {"size", "WIDTHxHEIGHT", "pixels (default 1024x1024)",
                "WIDTHxHEIGHT such as 640x480, each from 1 to 16384"},

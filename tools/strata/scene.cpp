@@ -1,6 +1,8 @@
 // tools/strata/scene.cpp - strata scene: prints the contents of a model without rendering it.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -47,6 +49,13 @@ Drawn drawn(const pipeline::DrawList& list, std::optional<pipeline::AlphaMode> m
     return sum;
 }
 
+std::vector<std::string> materials_of(const pipeline::DrawList& list, pipeline::AlphaMode mode) {
+    std::vector<std::string> names;
+    for (const auto& material : list.materials)
+        if (material.alpha_mode == mode) names.push_back(material.name);
+    return names;
+}
+
 // In the order of the enum.
 constexpr std::array alpha_modes{pipeline::AlphaMode::opaque, pipeline::AlphaMode::mask, pipeline::AlphaMode::blend};
 
@@ -54,12 +63,17 @@ ordered_json to_json(const scenes::Scene& scene) {
     ordered_json modes = ordered_json::object(), textures = ordered_json::array(), cameras = ordered_json::array();
     for (const auto mode : alpha_modes) {
         const Drawn part = drawn(scene.list, mode);
-        modes[std::string(alpha_mode_name(mode))] = {{"instances", part.instances}, {"triangles", part.triangles}};
+        modes[std::string(alpha_mode_name(mode))] = {{"instances", part.instances},
+                                                     {"triangles", part.triangles},
+                                                     {"materials", materials_of(scene.list, mode)}};
     }
     for (const auto& texture : scene.list.textures) {
         textures.push_back({{"name", texture.name}, {"width", texture.width}, {"height", texture.height}});
     }
     for (const auto& camera : scene.cameras) cameras.push_back(camera.name);
+    ordered_json ignored_alpha = ordered_json::array();
+    for (const auto& one : scene.opaque_with_alpha)
+        ignored_alpha.push_back({{"material", one.material}, {"of", one.of}});
     ordered_json material_names = ordered_json::array();
     for (const auto& material : scene.list.materials) material_names.push_back(material.name);
     // null, because JSON has no empty box.
@@ -75,10 +89,12 @@ ordered_json to_json(const scenes::Scene& scene) {
             {"instances", all.instances},
             {"triangles", all.triangles},
             {"alpha_modes", modes},
+            {"opaque_with_alpha", ignored_alpha},
             {"textures", textures},
             {"cameras", cameras},
             {"extensions", scene.extensions},
             {"bounds", bounds},
+            {"moved_by", components(scene.moved_by)},
             {"warnings", scene.warnings}};
 }
 
@@ -95,11 +111,39 @@ std::string in_brackets(std::vector<std::string> names) {
     return fmt::format(" ({}{})", fmt::join(names, ", "), has_more ? ", ..." : "");
 }
 
-// Six significant digits, for the terminal. The JSON output has all digits.
+// The number of significant digits, from 6, that shows each side of the box to a hundredth of its length.
+int digits_of(const scenes::Bounds& bounds) {
+    int digits = 6;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double side = bounds.hi[i] - bounds.lo[i];
+        const double largest = std::max(std::abs(bounds.lo[i]), std::abs(bounds.hi[i]));
+        if (side > 0) digits = std::max(digits, static_cast<int>(std::ceil(std::log10(largest / side))) + 3);
+    }
+    return std::min(digits, 17);
+}
+
+// For the terminal. The JSON output has all digits.
 std::string bounds_text(const scenes::Bounds& bounds) {
     if (bounds.is_empty()) return "empty";
-    return fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", bounds.lo[0], bounds.lo[1], bounds.lo[2],
-                       bounds.hi[0], bounds.hi[1], bounds.hi[2]);
+    const int digits = digits_of(bounds);
+    const auto point = [&](const Vec3d& p) {
+        return fmt::format("({:.{}g}, {:.{}g}, {:.{}g})", p[0], digits, p[1], digits, p[2], digits);
+    };
+    return point(bounds.lo) + " to " + point(bounds.hi);
+}
+
+// "leaf (texture), pane (factor, vertex colours)".
+std::string ignored_alpha_text(const scenes::Scene& scene) {
+    std::vector<std::string> parts;
+    for (std::size_t i = 0; i < scene.opaque_with_alpha.size(); ++i) {
+        const auto& one = scene.opaque_with_alpha[i];
+        const bool is_further = i > 0 && scene.opaque_with_alpha[i - 1].material == one.material;
+        if (is_further)
+            parts.back().insert(parts.back().size() - 1, ", " + one.of);
+        else
+            parts.push_back(fmt::format("{} ({})", one.material, one.of));
+    }
+    return fmt::format("{}: OPAQUE, so that it is not drawn (MASK or BLEND in the file draws it)", with_commas(parts));
 }
 
 // The properties of the scene as a table, one per line.
@@ -114,15 +158,18 @@ std::string describe(const scenes::Scene& scene) {
     table.rows.push_back({"triangles", fmt::format("{}", all.triangles)});
     for (const auto mode : alpha_modes) {
         const Drawn part = drawn(scene.list, mode);
-        table.rows.push_back({fmt::format("  {}", alpha_mode_name(mode)), fmt::format("{}", part.triangles)});
+        table.rows.push_back({fmt::format("  {}", alpha_mode_name(mode)),
+                              fmt::format("{}{}", part.triangles, in_brackets(materials_of(scene.list, mode)))});
     }
-    std::vector<std::string> materials;
-    for (const auto& m : scene.list.materials) materials.push_back(m.name);
-    table.rows.push_back({"materials", fmt::format("{}{}", materials.size(), in_brackets(materials))});
+    table.rows.push_back({"materials", fmt::format("{}", scene.list.materials.size())});
+    if (!scene.opaque_with_alpha.empty()) table.rows.push_back({"alpha lost", ignored_alpha_text(scene)});
     table.rows.push_back({"textures", with_commas(textures)});
     table.rows.push_back({"cameras", with_commas(cameras)});
     table.rows.push_back({"extensions", with_commas(scene.extensions)});
     table.rows.push_back({"bounds", bounds_text(scene.bounds)});
+    if (scene.moved_by != Vec3d{0, 0, 0})
+        table.rows.push_back(
+            {"moved by", fmt::format("({}, {}, {})", scene.moved_by[0], scene.moved_by[1], scene.moved_by[2])});
     table.rows.push_back({"warnings", scene.warnings.empty() ? "none" : scene.warnings.front()});
     for (std::size_t i = 1; i < scene.warnings.size(); ++i) table.rows.push_back({"", scene.warnings[i]});
     return to_text(table);

@@ -184,8 +184,7 @@ void Workbench::open(const Json& question) {
     open_scene(question.at("scene").get<std::string>(), request);
     options_ = request.render;
     space_ = request.scene_options.color_space;
-    const rasterizer::RasterState& raster = options_.raster;
-    view_ = scenes::with_clip_convention(view_of(request), {}, {raster.clip_depth, raster.depth_order});
+    view_ = scenes::with_clip_convention(view_of(request), {}, scenes::view_convention(options_.raster));
 }
 
 Workbench::Json Workbench::render(const Json& question) {

@@ -211,7 +211,7 @@ TEST_CASE("a reversed depth range is rejected by name and depth clamping where t
     for (const auto& algorithm : strata::peeling::algorithms())
         CHECK(refusal_message({"ideal", algorithm.name}, options) ==
               "profile ideal has no peeling with LESS over a reversed depth range; use a depth range with near below "
-              "far; --depth-order greater with such a range reverses the projection");
+              "far, or --depth-order greater beside this one");
 }
 
 TEST_CASE("fragments of a rejected run are rejected with the same message") {

@@ -176,9 +176,10 @@ TEST_CASE("each ignored feature is reported once with its first JSON pointer and
     file.add("materials", {{"normalTexture", {{"index", 0}}}, {"emissiveFactor", {1, 1, 1}}});
     CHECK(file.load().warnings ==
           std::vector<std::string>{
-              "/extensionsUsed/0: extension KHR_materials_clearcoat is ignored",
-              "/materials/0/normalTexture (and 1 more): normal maps are ignored",
-              "/materials/1/emissiveFactor: emission is ignored",
+              "/extensionsUsed/0: extension KHR_materials_clearcoat is ignored: highlights differ, alpha does not",
+              "/materials/0/normalTexture (and 1 more): normal maps are ignored: surfaces are lit by the normals of "
+              "their vertices",
+              "/materials/1/emissiveFactor: emission is ignored: what glows is darker",
               "/animations: animations are ignored: nodes, joints and morph weights stay as written",
           });
 }

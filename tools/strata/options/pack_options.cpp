@@ -17,7 +17,7 @@ void take_pack_state(RunOptions& options, const std::string& scene) {
     static_cast<PictureRequest&>(options) =
         request_of(oracle::read_state(manifest, folder + "/manifest.json", scenes::load_profile(options.profile)));
     options.scene_options.color_space = scenes::color_space_of(folder, manifest);
-    options.pack_convention = scenes::ClipConvention{*options.clip_depth, *options.depth_order};
+    options.pack_convention = scenes::view_convention(options.render.raster);
 }
 
 }  // namespace strata::tools

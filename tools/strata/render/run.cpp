@@ -90,16 +90,6 @@ void drop_repeated_convention(RunOptions& options, const pipeline::DeviceProfile
         options.depth_order.reset();
 }
 
-// Reversed depth reverses the projection of a view that is not reversed. A reversed range beside it cancels that, and
-// GREATER would draw the farthest surfaces.
-void check_reversed_once(const rasterizer::RasterState& raster, rasterizer::DepthOrder of_view) {
-    using enum rasterizer::DepthOrder;
-    if (raster.depth_order == greater && of_view == less && raster.depth_near > raster.depth_far)
-        throw CLI::ValidationError("--depth-range",
-                                   "expected NEAR below FAR with --depth-order greater, which already reverses depth: "
-                                   "reversed twice, the farthest surfaces would be drawn");
-}
-
 }  // namespace
 
 pipeline::View view_named(const std::string& name, const scenes::Scene& scene, double aspect,
@@ -152,10 +142,8 @@ Session open_session(RunOptions& options) {
     options.takes_own_view = options.camera.empty() && !options.orbit && session.scene.own_view.has_value();
     const scenes::ClipConvention own =
         options.takes_own_view ? options.pack_convention.value_or(scenes::ClipConvention{}) : scenes::ClipConvention{};
-    const rasterizer::RasterState& raster = options.render.raster;
-    check_reversed_once(raster, own.depth_order);
-    session.view =
-        scenes::with_clip_convention(find_view(options, session.scene), own, {raster.clip_depth, raster.depth_order});
+    session.view = scenes::with_clip_convention(find_view(options, session.scene), own,
+                                                scenes::view_convention(options.render.raster));
     check_sorted(options, session.scene);
     return session;
 }

@@ -110,3 +110,21 @@ TEST_CASE("a pack keeps its own clip depth and depth order under any profile unt
     CHECK(in.pack("kept", "first --profile vulkan.json --origin upper-left")["state"] == first["state"]);
     CHECK(run_strata(in.folder, {"golden", "--check", "vulkan"}).out == "vulkan: all files match\n");
 }
+
+TEST_CASE("a reversed depth range with greater keeps the projection and draws the layers in their order") {
+    const ProfileFolder in;
+    const std::string scene = "random:triangles=60 --profile direct3d11 --depth-format d32f";
+    const auto usual = in.pack("usual", scene),
+               both = in.pack("both", scene + " --depth-range 1,0 --depth-order greater");
+    CHECK(both["view"] == usual["view"]);
+    CHECK(both["state"]["depth_order"] == "greater");
+    for (const int i : {0, 1})
+        CHECK(both["results"][i]["picture"]["digest"] == usual["results"][i]["picture"]["digest"]);
+    // The pack is drawn again with its own view and state.
+    const CommandResult again = shell(in.folder, "strata golden both --algorithm dual,front_to_back -q -o again");
+    INFO(again.err);
+    REQUIRE(again.status == 0);
+    CHECK(nlohmann::json::parse(content_of(in.folder / "again/manifest.json"))["results"] == both["results"]);
+    const CommandResult less = shell(in.folder, "strata render teapot --size 8x8 --depth-range 1,0");
+    CHECK_THAT(less.err, Contains("or --depth-order greater beside this one"));
+}

@@ -40,3 +40,20 @@ TEST_CASE("a scene file without triangles is reported with the options to use") 
           "strata: warning: random:triangles=0: nothing is drawn, because the scene has no triangles; strata scene "
           "lists the file's scenes, --scene N chooses one\n");
 }
+
+TEST_CASE("scene lists the materials of each alpha mode and the alpha that OPAQUE ignores") {
+    const Folder folder;
+    std::ofstream(folder / "a.gltf") << R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[
+{"attributes":{"POSITION":0,"COLOR_0":1},"material":0},{"attributes":{"POSITION":0},"material":1},
+{"attributes":{"POSITION":0},"material":2}]}],"materials":[
+{"name":"pane","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]}},{"name":"glass","alphaMode":"BLEND"},{"name":"wall"}],
+"accessors":[{"componentType":5126,"count":3,"type":"VEC3"},{"componentType":5126,"count":3,"type":"VEC4"}]})";
+    const CommandResult found = run_strata(folder, {"scene", "a.gltf"});
+    CHECK(found.status == 0);
+    for (const std::string line : {"  OPAQUE    2 (pane, wall)\n", "  BLEND     1 (glass)\n",
+                                   "alpha lost  pane (factor, vertex colours): OPAQUE, so that it is not drawn (MASK "
+                                   "or BLEND in the file draws it)\n"}) {
+        INFO(found.out);
+        CHECK(found.out.find(line) != std::string::npos);
+    }
+}
