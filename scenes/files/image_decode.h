@@ -29,6 +29,11 @@ struct ImageHeader {
 // Throws InputError at `location` for anything except a PNG or JPEG of permitted size.
 [[nodiscard]] ImageHeader read_image_header(Bytes bytes, const FileLocation& location);
 
+// Throws InputError at `location` for a PNG that a chunk oFFs puts elsewhere than at 0,0 of its page, as cropping does:
+// the page's size is in no file, so its pixels have no place in a picture of another size. The header must have been
+// read.
+void check_png_place(Bytes bytes, const FileLocation& location);
+
 // Throws InputError at `location` if a BMP's pixels are not in the file: the decoder would read them as 0.
 void check_bmp_pixels(Bytes bytes, const FileLocation& location);
 

@@ -139,6 +139,22 @@ ImageHeader jpeg_header(Bytes bytes, const FileLocation& location) {
 
 }  // namespace
 
+// PNG 11.3.5.3 of the extensions: x and y, signed, and a unit, 0 for pixels. Chunks are whole.
+void check_png_place(Bytes bytes, const FileLocation& location) {
+    constexpr std::uint32_t offsets = 0x6f464673, data = 0x49444154;
+    for (std::size_t at = png_signature.size(); at + 12 <= bytes.size(); at += 12 + big_endian32(bytes, at)) {
+        const std::uint32_t kind = big_endian32(bytes, at + 4);
+        if (kind == data) return;
+        if (kind != offsets || big_endian32(bytes, at) != 9 || byte_at(bytes, at + 16) != 0) continue;
+        const auto x = static_cast<std::int32_t>(big_endian32(bytes, at + 8)),
+                   y = static_cast<std::int32_t>(big_endian32(bytes, at + 12));
+        if (x != 0 || y != 0)
+            throw InputError(location.file, "place", "a picture at 0,0 of its page",
+                             std::to_string(x) + "," + std::to_string(y) +
+                                 " (chunk oFFs: it was cropped; magick IN.png +repage OUT.png drops the place)");
+    }
+}
+
 // BITMAPFILEHEADER has the offset of the pixels at byte 10. A header of 40 bytes or more follows, or
 // BITMAPCOREHEADER of 12.
 void check_bmp_pixels(Bytes bytes, const FileLocation& location) {

@@ -60,6 +60,7 @@ FileCodes read_codes(const std::string& path, const char* reader) {
         const ImageHeader header = read_image_header(bytes, location);
         if (is_png != (header.kind == ImageKind::png))
             throw InputError(path, "format", is_png ? "a PNG" : "a JPEG", is_png ? "a JPEG" : "a PNG");
+        if (is_png) check_png_place(bytes, location);
         picture.width = static_cast<int>(header.width);
         picture.height = static_cast<int>(header.height);
     }
@@ -78,6 +79,7 @@ std::vector<FileImage> read_png(const std::string& path) {
     // PNG 11.2.2: bit depth and colour type, of which bit 1 means colour.
     if (header.kind != ImageKind::png || bytes[24] != std::byte{8} || (bytes[25] & std::byte{2}) == std::byte{0})
         throw InputError(path, "format", "a PNG with 8 bits per channel, RGB or RGBA", "another kind of image");
+    check_png_place(bytes, location);
     const std::vector<std::uint8_t> codes = decode_image(bytes, header, location);
     Image image = Image::for_overwrite(Format::rgba8, static_cast<int>(header.width), static_cast<int>(header.height));
     std::copy_n(codes.data(), codes.size(), image.codes.data());

@@ -1,14 +1,17 @@
 // Tests PNG output by a round trip, and conversions to 8 bits against codes worked out by hand.
 #include <OpenImageIO/imageio.h>
+#include <zlib.h>
 
 #include <bit>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <thread>
 
 #include "rasterizer/base/input_error.h"
+#include "scenes/files/image_decode.h"
 #include "scenes/files/image_io.h"
 #include "scenes/files/system_error.h"
 #include "tests/scenes/image_support.h"
@@ -127,4 +130,39 @@ TEST_CASE("a PNG without alpha is digested as opaque and a grey or 16-bit one is
     CHECK(read_images(folder / "rgb.png")[0].image.codes == ImageCodes{77, 77, 77, 255, 77, 77, 77, 255});
     CHECK_THROWS_AS(read_images(folder / "grey.png"), strata::InputError);
     CHECK_THROWS_AS(read_images(folder / "wide.png"), strata::InputError);
+}
+
+TEST_CASE("a PNG that was cropped and has another place than 0 0 on its page is rejected with the place") {
+    const TemporaryFolder folder;
+    const std::string path = folder / "a.png";
+    write_image(path, {.color = strata::test::wild_image(Format::rgba8, 3, 2, 1)});
+    std::ifstream stream{path, std::ios::binary};
+    const std::string plain{std::istreambuf_iterator<char>{stream}, {}};
+    // The message of reading the file with a chunk oFFs of these bytes behind IHDR.
+    const auto message = [&](std::string chunk) -> std::string {
+        chunk = "oFFs" + chunk;
+        const auto crc = static_cast<std::uint32_t>(
+            ::crc32(0, reinterpret_cast<const Bytef*>(chunk.data()), static_cast<uInt>(chunk.size())));
+        std::string bytes{"\0\0\0\x09", 4};
+        bytes += chunk;
+        for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(crc >> shift & 0xff);
+        std::ofstream{path, std::ios::binary} << plain.substr(0, 33) << bytes << plain.substr(33);
+        std::string found;
+        for (const bool as_codes : {false, true}) try {
+                if (as_codes)
+                    static_cast<void>(read_codes(path, "png"));
+                else
+                    static_cast<void>(read_images(path));
+            } catch (const strata::InputError& error) {
+                found += error.what();
+            }
+        return found;
+    };
+    const std::string expected =
+        path +
+        ": place: expected a picture at 0,0 of its page, found 9,-4 (chunk oFFs: it was cropped; magick IN.png "
+        "+repage OUT.png drops the place)";
+    CHECK(message({"\0\0\0\x09\xff\xff\xff\xfc\0", 9}) == expected + expected);
+    CHECK(message(std::string(9, '\0')).empty());
+    CHECK(message({"\0\0\0\x09\0\0\0\0\x01", 9}).empty());  // micrometres: a place on paper
 }
