@@ -6,7 +6,7 @@ set(core_targets strata_numerics strata_warnings strata_rasterizer strata_pipeli
 set(header_folders rasterizer pipeline peeling)
 set(oracle_targets "")
 if(NOT STRATA_CORE_ONLY)
-  set(oracle_targets strata_scenes strata_oracle strata_mistakes strata_verdict strata_judge strata_library)
+  set(oracle_targets strata_scenes strata_oracle strata_mistakes strata_verdict strata_program strata_judge strata_library)
   list(APPEND header_folders scenes tools/request tools/oracle tools/library/strata)
 endif()
 set(module_targets strata_images)
@@ -61,7 +61,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/strata-config.cmake ${CMAKE_CURRENT_BI
 
 # Programs link the dependencies of static libraries, but not those of shared ones.
 if(oracle_targets)
-  set(libraries "-lstrata_library -lstrata_judge -lstrata_verdict -lstrata_mistakes -lstrata_oracle -lstrata_scenes -lstrata_peeling -lstrata_pipeline -lstrata_rasterizer")
+  set(libraries "-lstrata_library -lstrata_judge -lstrata_program -lstrata_verdict -lstrata_mistakes -lstrata_oracle -lstrata_scenes -lstrata_peeling -lstrata_pipeline -lstrata_rasterizer")
   set(below "fmt libhwy libpng libxxhash OpenEXR tbb")
   if(BUILD_SHARED_LIBS)
     set(pkgconfig_requires "Requires.private: ${below}")

@@ -18,6 +18,7 @@
 #include "tools/oracle/judge/forgotten.h"
 #include "tools/oracle/judge/layers_verdict.h"
 #include "tools/oracle/judge/picture_diagnosis.h"
+#include "tools/oracle/program/fit/fitting.h"
 #include "tools/oracle/verdict/equal_picture.h"
 
 namespace strata::oracle {
@@ -99,7 +100,31 @@ class Judge {
         if (is_of_one_mistake) return by_emulation();
         const bool is_open = !is_right_in_another_view() && !layers_->is_undecided();
         if (is_open && emulated_.kind == Kind::mistakes) return by_emulation();
+        if (is_open && effort_ == Effort::all && is_fitted()) return;
         by_layers();
+        if (fitting_) add_fitted_leads();
+    }
+
+    // True if a program of few words gives the picture. Scenes of many fragments are not fitted.
+    [[nodiscard]] bool is_fitted() {
+        constexpr std::uint64_t most_fragments = 1'000'000;
+        if (!layers_->single || !algorithm_.exact) return false;
+        const verdict::SceneFragments& fragments = *layers_->single->fragments;
+        if (!fragments.keeps() || fragments.count() > most_fragments) return false;
+        fitting_ = fit(program::lists_of(fragments, layers_->colors()));
+        if (fitting_->state != program::Fitting::State::explained) return false;
+        found_.state = JudgedState::explained;
+        for (const program::Proof& proof : fitting_->found) found_.mistakes.push_back(describe(proof.program));
+        found_.sentence = "wrong: " + found_.mistakes[0];
+        return true;
+    }
+
+    void add_fitted_leads() {
+        if (fitting_->state != program::Fitting::State::explained_in_part) return;
+        if (found_.state == JudgedState::not_explained) found_.state = JudgedState::explained_in_part;
+        for (const program::Proof& proof : fitting_->found)
+            found_.leads.push_back(fmt::format("{}: {} of {} pixels are wrong then", describe(proof.program),
+                                               proof.fitness.beyond, proof.fitness.pixels));
     }
 
     // Asks which option of the view looks forgotten.
@@ -220,7 +245,9 @@ class Judge {
         std::string& text = found_.text;
         text = found_.sentence + '\n';
         for (const std::string& sentence : found_.forgotten) text += "  " + sentence + '\n';
-        if (layers_ && !is_by_emulation_ && layers_->is_right() == found_.is_right) text += lines_of_layers;
+        if (is_named_by_fitting()) text += divided(to_text(*fitting_)).second;
+        if (layers_ && !is_by_emulation_ && !is_named_by_fitting() && layers_->is_right() == found_.is_right)
+            text += lines_of_layers;
         if (!emulations_) {
             if (layers_->samples && found_.state == JudgedState::not_explained)
                 text += "  strata diagnose, with the same --samples, names known mistakes\n";
@@ -233,6 +260,11 @@ class Judge {
         const bool is_of_layers = emulations_->found.conclusion == Conclusion::right_structure;
         if (!is_by_emulation_ && !is_of_layers) text += "  " + first_line(emulations_->found);
         text += oracle::lines_of(emulations_->found, emulations_->comparison);
+    }
+
+    [[nodiscard]] bool is_named_by_fitting() const {
+        return fitting_ && fitting_->state == program::Fitting::State::explained &&
+               found_.state == JudgedState::explained;
     }
 
     void write_json() {
@@ -257,6 +289,7 @@ class Judge {
     std::optional<LayersVerdict> layers_{};
     std::optional<PictureDiagnosis> emulations_{};
     Emulated emulated_{};
+    std::optional<program::Fitting> fitting_{};
     bool is_by_emulation_ = false, makes_right_ = false;
     Judgement found_{};
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "tools/oracle/fragments/coverages.h"
 #include "tools/oracle/fragments/sample.h"
 
 namespace strata::oracle::program {
@@ -33,6 +34,32 @@ void add(Lists& lists, const verdict::PixelList& list, const std::array<double, 
                                    .material = f.material,
                                    .is_front_facing = f.is_front_facing});
     }
+}
+
+Color composite_of(std::span<const verdict::Fragment> visible, const Rgba& behind) {
+    Color color{};
+    double through = 1;
+    for (const verdict::Fragment& f : visible) {
+        const double alpha = std::clamp(double{f.color[3]}, 0.0, 1.0);
+        for (std::size_t c = 0; c < 3; ++c) color[c] += through * alpha * double{f.color[c]};
+        through *= 1 - alpha;
+    }
+    for (std::size_t c = 0; c < 3; ++c) color[c] += through * double{behind[c]};
+    return color;
+}
+
+// True if only the fragments of another rasterizer come near the candidate's colour: such a pixel shows no mistake.
+bool is_covered_otherwise(const verdict::PixelList& list, const std::array<double, 4>& seen) {
+    if (list.edge == nullptr) return false;
+    const auto is_near = [&](std::span<const verdict::Fragment> visible, const Rgba& behind) {
+        const double most = (1.5 + static_cast<double>(visible.size()) / 2) / 255;
+        const Color color = composite_of(visible, behind);
+        return std::fabs(color[0] - seen[0]) <= most && std::fabs(color[1] - seen[1]) <= most &&
+               std::fabs(color[2] - seen[2]) <= most;
+    };
+    return !is_near(list.visible, list.behind) && std::ranges::any_of(list.edge->others, [&](const auto& other) {
+        return is_near(other.visible, other.behind);
+    });
 }
 
 // What becomes of a group of equal codes: all of it, one of it, or the MAX of each channel.
@@ -135,7 +162,8 @@ Lists lists_of(const verdict::SceneFragments& scene, const verdict::Colors& cand
     for (int row = 0; row < scene.height(); ++row)
         for (int x = 0; x < scene.width(); ++x) {
             const verdict::PixelList list = scene.list_at(x, row);
-            add(lists, list, candidate.at(list.x, list.y));
+            const std::array<double, 4> seen = candidate.at(list.x, list.y);
+            if (!is_covered_otherwise(list, seen)) add(lists, list, seen);
         }
     std::vector<double> seen;
     for (const ListPixel& pixel : lists.pixels) seen.insert(seen.end(), pixel.seen.begin(), pixel.seen.end());

@@ -3,7 +3,8 @@
 //
 // Rule     A pixel's fragments are the visible ones by depth code. What a port does with equal codes is not part of the
 //          question; the list counts that comes closest: all of a group, its first, its last, or one layer by MAX, as
-//          in ties.h of the rules.
+//          in ties.h of the rules. A pixel at an edge that only another rasterizer's coverage explains (coverages.h)
+//          has no list, as it shows no mistake.
 // Numbers  `unit` is the step in which residuals are counted: one code of the candidate's format, 2^-11 of halves,
 //          2^-18 of binary32.
 // Tests    tests/tools/oracle/program/parts_test.cpp
@@ -65,7 +66,7 @@ struct Lists {
     [[nodiscard]] double unit() const noexcept { return step_of(format); }
 };
 
-// The lists of a scene whose fragments are kept.
+// The lists of a scene whose fragments are kept; with the other coverage of its edges, if that was found.
 [[nodiscard]] Lists lists_of(const verdict::SceneFragments& scene, const verdict::Colors& candidate);
 
 // Sets the spans of the pixels, whose `first` are known, the triangles' depths, and the lists with equal codes

@@ -176,6 +176,33 @@ TEST_CASE("a picture of another processor is recognised as that of its profile")
     CHECK(named_emulation(found) == "profile llvmpipe_sse");
 }
 
+TEST_CASE("a mistake that no list names is fitted by diagnose: every second layer with red and blue exchanged") {
+    const Folder folder;
+    constexpr int side = 40;
+    std::vector<Pane> panes;
+    for (int i = 0; i < 6; ++i)
+        panes.push_back(
+            {-0.9 + 0.08 * i, 0.5 + 0.08 * i, -0.6 + 0.2 * ((5 * i) % 6), {0.15 * i, 0.47, 0.95 - 0.11 * i, 0.37}});
+    write_scene(folder, "stack.json", panes);
+    std::ranges::sort(panes, std::ranges::greater{}, &Pane::z);
+    write_picture(folder, "port.ppm", side, [&](int column, int row) {
+        std::vector<Pane> layers;  // the nearest first
+        for (const Pane& pane : panes)
+            if (pane.covers(column, row, side)) layers.push_back(pane);
+        Rgb color{51, 77, 128};
+        for (std::size_t i = layers.size(); i-- > 0;) {
+            if (i % 2 == 1) std::swap(layers[i].color[0], layers[i].color[2]);
+            color = blended(color, layers[i].color);
+        }
+        return color;
+    });
+    const CommandResult found =
+        run_strata(folder, {"diagnose", "stack.json", "port.ppm", "--background", "0.2,0.3,0.5"});
+    INFO(found.out);
+    CHECK(found.status == 1);
+    CHECK(lines_of(found.out).at(0) == "wrong: fragments of odd ranks from the front have red and blue exchanged");
+}
+
 TEST_CASE("blends of sources that are not codes are accepted as another rounding for every algorithm") {
     const Folder folder;
     constexpr int side = 40;
