@@ -2,7 +2,8 @@
 add_library(strata_numerics INTERFACE)
 add_library(strata::numerics ALIAS strata_numerics)
 target_compile_features(strata_numerics INTERFACE cxx_std_20)
-target_compile_options(strata_numerics INTERFACE -ffp-contract=off -fno-fast-math)
+# GCC's vectorizer of straight-line code drops the rounding of a double to float and back (rasterizer/reference/numbers.md 1.2).
+target_compile_options(strata_numerics INTERFACE -ffp-contract=off -fno-fast-math $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
 target_compile_definitions(strata_numerics INTERFACE GLM_FORCE_CTOR_INIT)  # rasterizer/base/vector.h
 target_include_directories(strata_numerics INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 
