@@ -34,12 +34,24 @@ PreparedLists::PreparedLists(Settings settings) : s_{std::move(settings)} {
     rasterizer::check(s_.raster);
     check(s_.list);
     check(s_.view);
+    if (undrawable()) return;  // refused before a list is drawn
     // With --alpha all surfaces are transparent and there is no opaque list.
     const bool has_opaque =
         !s_.options.alpha && std::any_of(s_.list.materials.begin(), s_.list.materials.end(),
                                          [](const Material& m) { return m.alpha_mode != AlphaMode::blend; });
     if (has_opaque) opaque_ = prepare(s_.list, s_.view, s_.raster, prepare_options(Selection::opaque));
     prepare_second();
+}
+
+std::optional<Refusal> PreparedLists::undrawable() const {
+    for (const Instance& instance : s_.list.instances) {
+        const Primitive primitive = s_.list.meshes[instance.mesh].primitive;
+        if (primitive == Primitive::triangles) continue;
+        if (auto lacking = check(s_.profile, primitive)) return lacking;
+        if (s_.options.sampling.samples > 1 || s_.raster.sample)
+            return Refusal{"multisampling of lines and points", "", "use --samples 1"};
+    }
+    return std::nullopt;
 }
 
 const PreparedDraw& PreparedLists::transparent(ListOrder order) {

@@ -11,6 +11,7 @@
 #include "peeling/algorithms/algorithm.h"
 #include "peeling/frame/shadow_light.h"
 #include "peeling/render_options.h"
+#include "pipeline/device/check.h"
 #include "pipeline/vertices/prepare.h"
 
 namespace strata::peeling {
@@ -32,6 +33,8 @@ class PreparedLists {
     };
     explicit PreparedLists(Settings settings);
 
+    // Why the profile cannot draw a primitive of the list, if so; nothing is prepared then.
+    [[nodiscard]] std::optional<pipeline::Refusal> undrawable() const;
     [[nodiscard]] const pipeline::PreparedDraw& transparent(ListOrder order);
     // Sorts all existing lists into tiles of this size, unless they already are.
     void bin(int tile_size_px);

@@ -64,6 +64,7 @@ std::optional<Refusal> refusal_of(const Algorithm& algorithm, const FrameSetup& 
     const rasterizer::DepthRequest request = setup.depth_of(algorithm);
     const bool casts_shadows = setup.lists.settings().list.light.has_value();
     if (auto lacking = check_samples_of(algorithm, setup)) return lacking;
+    if (auto lacking = setup.lists.undrawable()) return lacking;
     if (auto lacking = check_size(profile, options.width, options.height)) return lacking;
     if (auto lacking = check_depth(profile, request)) return lacking;
     if (auto lacking = check_w_buffer(request, setup.is_perspective)) return lacking;
@@ -79,6 +80,7 @@ std::optional<Refusal> refusal_of(const Algorithm& algorithm, const FrameSetup& 
 std::optional<Refusal> refusal_of_depth_pass(const Algorithm& one_pass, const FrameSetup& setup) {
     const RenderOptions& options = setup.options;
     if (auto lacking = check_samples_of(one_pass, setup)) return lacking;
+    if (auto lacking = setup.lists.undrawable()) return lacking;
     if (auto lacking = check_size(setup.profile, options.width, options.height)) return lacking;
     if (auto lacking = check_depth(setup.profile, setup.depth)) return lacking;
     if (auto lacking = check(setup.profile, setup.color_format)) return lacking;

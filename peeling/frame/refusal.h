@@ -1,8 +1,7 @@
 // peeling/frame/refusal.h - the first reason why a profile cannot run a frame.
 //
-// Rule     In the order of pipeline/reference/devices.md 9.2: samples, size, depth, formats, order, shading, layers,
-// the
-//          algorithm's features.
+// Rule     In the order of pipeline/reference/devices.md 9.2: samples, lines and points, size, depth, formats, order,
+//          shading, layers, the algorithm's features.
 // Tests    tests/peeling/frame/refusals_test.cpp
 #pragma once
 #include "peeling/frame/setup.h"

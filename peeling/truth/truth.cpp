@@ -155,6 +155,9 @@ RealImage real_image(const Image& image) {
 RealImage render_chain(const ChainScene& scene, const Chain& chain) {
     if (scene.list.light) throw InputError("scene", "light", "no light that casts shadows", "one");
     if (scene.options.fog) throw InputError("scene", "fog", "no fog", "one");
+    for (const pipeline::Instance& instance : scene.list.instances)
+        if (scene.list.meshes[instance.mesh].primitive != pipeline::Primitive::triangles)
+            throw InputError("scene", "primitives", "triangles alone", "lines or points");
     // Only the NVIDIA profiles have the plane and snapping rules that a chain can evaluate.
     const rasterizer::RasterRules& rules = scene.profile.raster;
     const bool is_known = rules.plane_rule == rasterizer::PlaneRule::exact &&

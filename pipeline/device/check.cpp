@@ -108,6 +108,14 @@ std::optional<Refusal> check(const DeviceProfile& profile, std::span<const Featu
     return std::nullopt;
 }
 
+std::optional<Refusal> check(const DeviceProfile& profile, rasterizer::Primitive primitive) {
+    const rasterizer::Shape shape = shape_of(primitive);
+    const auto can = [shape](const DeviceProfile& p) { return draws(p.raster, shape); };
+    if (can(profile)) return std::nullopt;
+    return Refusal{std::string{"known rule for "} + (shape == rasterizer::Shape::line ? "lines" : "points"), "",
+                   way_out(can)};
+}
+
 std::optional<Refusal> check(const DeviceProfile& profile, DepthFormat format) {
     switch (format) {
         case DepthFormat::d16: return check(profile, Feature::d16);

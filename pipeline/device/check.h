@@ -15,6 +15,7 @@
 #include "pipeline/device/profile.h"
 #include "pipeline/device/state.h"
 #include "pipeline/formats/format.h"
+#include "rasterizer/rules/primitive.h"
 #include "rasterizer/rules/raster_state.h"
 
 namespace strata::pipeline {
@@ -80,6 +81,8 @@ struct Refused : std::runtime_error {
 // may always differ (EXT_draw_buffers2); equations, factors and constants of the blending targets may differ only with
 // independent blending.
 [[nodiscard]] std::optional<Refusal> check(const DeviceProfile& profile, std::span<const Blend> targets);
+// Lines and points: profiles without a rule for them refuse them.
+[[nodiscard]] std::optional<Refusal> check(const DeviceProfile& profile, rasterizer::Primitive primitive);
 // The path by which a depth buffer is written; check_reference: the path that a program or a shadow comparison
 // compares.
 [[nodiscard]] std::optional<Refusal> check(const DeviceProfile& profile, rasterizer::DepthPath written);

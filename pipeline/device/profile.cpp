@@ -29,6 +29,8 @@ DeviceProfile geforce3() {
                 .offset_unit = OffsetUnit::buffer,
                 .offset_rule = OffsetRule::fragments,
                 .color = ColorInterpolation::weights_8bit,
+                .lines = LineRule::band,
+                .points = PointRule::reciprocal,
                 .interpolation = {.vertex_color_bits = 14,
                                   .perspective_color = PerspectiveColor::cut_products,
                                   .texture_coordinates = CoordinateRule::cut_weights,
@@ -64,6 +66,8 @@ DeviceProfile geforce8() {
     p.max_texture_units = 16;
     p.max_viewport_px = 8192;
     p.max_samples = 8;
+    p.raster.lines = LineRule::diamond_exit;
+    p.raster.points = PointRule::square;
     return p;
 }
 
@@ -99,6 +103,8 @@ DeviceProfile mesa() {
     p.raster.perspective = PerspectiveDivide::reciprocal;
     p.raster.depth_rounding = DepthRounding::product_even;
     p.raster.offset_unit = OffsetUnit::two_codes;
+    p.raster.lines = LineRule::none;
+    p.raster.points = PointRule::none;
     p.half_rounding = HalfRounding::toward_zero;
     p.unorm_rounding = UnormRounding::product_even;
     p.blend_rounding = BlendRounding::each_product;

@@ -59,7 +59,7 @@ void require(std::optional<Refusal> lacking, const DeviceProfile& profile) {
 
 // Sets up one draw: all triangles have one material, and the soup's positions are window positions.
 PreparedDraw prepared(const DeviceProfile& profile, const SurfaceLayout& layout, const DrawState& state,
-                      rasterizer::TriangleSoup soup) {
+                      rasterizer::TriangleSoup soup, rasterizer::Primitive primitive) {
     rasterizer::RasterState raster;
     raster.viewport = {0, 0, layout.width, layout.height};
     raster.y_direction = rasterizer::YDirection::up;  // facing is as seen in the window; positions are not changed
@@ -71,12 +71,18 @@ PreparedDraw prepared(const DeviceProfile& profile, const SurfaceLayout& layout,
     raster.depth_clamp = state.depth_clamp;
     raster.polygon_offset = state.polygon_offset;
     raster.range_culls_triangles = state.range_culls_triangles;
+    raster.line_width_px = state.line_width_px;
+    raster.point_size_px = state.point_size_px;
+    raster.line_style = state.line_style;
+    raster.smooth_polygons = state.smooth_polygons;
+    raster.polygon_stipple = state.polygon_stipple;
     raster.w_scale = 1.0f;
     raster.window_positions = true;
     raster.depth_format = profile.stored(layout.depth);
     soup.runs = {{.first_index = 0,
                   .index_count = static_cast<std::uint32_t>(soup.indices.size()),
-                  .double_sided = state.cull == rasterizer::CullFace::none}};
+                  .double_sided = state.cull == rasterizer::CullFace::none,
+                  .primitive = primitive}};
     PreparedDraw list;
     list.geometry = set_up(std::move(soup), raster, profile.raster, 1);
     bin_triangles(list.geometry, 128);
@@ -146,10 +152,10 @@ void Surface::fill(const std::function<PixelCode(int x, int y)>& value) {
 
 // The number of fragments that pass all tests, as an occlusion query counts them, is the increase of the counter
 // `blended`.
-std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup soup) {
+std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup soup, rasterizer::Primitive primitive) {
     const FloatEnvironment ours;
     State& s = *state_;
-    s.list = prepared(s.profile, s.layout, state, std::move(soup));
+    s.list = prepared(s.profile, s.layout, state, std::move(soup), primitive);
     s.frame.depth.path = state.depth_path.value_or(s.profile.raster.depth_path);
     PassState pass;
     pass.alpha = state.alpha;

@@ -39,7 +39,11 @@ struct DrawState {
     bool range_culls_triangles = false;  // drops triangles if all corners' z are outside the range on the same side
     rasterizer::PolygonOffset polygon_offset{};
     std::optional<rasterizer::DepthPath> depth_path{};  // empty: the profile's
-    const Texture* texture = nullptr;                   // multiplies the vertex colour; rectangle: texel units
+    float line_width_px = 1.0f, point_size_px = 1.0f;
+    rasterizer::LineStyle line_style = rasterizer::LineStyle::band;
+    bool smooth_polygons = false;
+    std::optional<rasterizer::PolygonStipple> polygon_stipple{};
+    const Texture* texture = nullptr;  // multiplies the vertex colour; rectangle: texel units
     // Replaces the texture by texture shader and combiners; the soup's extras provide the units' coordinates. Depth
     // textures are images.
     const FragmentPath* path = nullptr;
@@ -61,9 +65,10 @@ class Surface {
     // Writes every pixel like the CPU: no stage is applied, only the truncation of the format.
     void fill(const std::function<PixelCode(int x, int y)>& value);
 
-    // Draws the triangles of `soup` in listed order, ignoring materials. Returns the number of fragments that passed
-    // all tests, as an occlusion query does.
-    std::uint64_t draw(const DrawState& state, rasterizer::TriangleSoup soup);
+    // Draws the primitives of `soup` in listed order, all of one kind, ignoring its runs. Returns the number of
+    // fragments that passed all tests, as an occlusion query does.
+    std::uint64_t draw(const DrawState& state, rasterizer::TriangleSoup soup,
+                       rasterizer::Primitive primitive = rasterizer::Primitive::triangles);
 
     [[nodiscard]] Image color() const;  // as rgba8: the codes that the blender would read
     [[nodiscard]] Image depth() const;

@@ -16,7 +16,15 @@ constexpr int greatest_size_px = 16384;
 
 void check_indices(const Requirements& list, const Mesh& mesh, std::size_t number) {
     const FieldName indices{"meshes", number, "indices"};
-    if (mesh.indices.size() % 3 != 0) list.fail(indices, "three per triangle", mesh.indices.size());
+    if (mesh.indices.size() % 3 != 0) list.fail(indices, "three per primitive", mesh.indices.size());
+    list.listed({"meshes", number, "primitive"}, mesh.primitive);
+    const bool is_line = mesh.primitive == Primitive::lines, is_point = mesh.primitive == Primitive::points;
+    for (std::size_t i = 0; (is_line || is_point) && i < mesh.indices.size(); i += 3) {
+        if (mesh.indices[i] == mesh.indices[i + 1] && (is_line || mesh.indices[i] == mesh.indices[i + 2])) continue;
+        list.fail(indices.text() + "[" + std::to_string(i + 1) + "]",
+                  is_line ? "the first end of the line again" : "the vertex of the point three times",
+                  mesh.indices[i + 1]);
+    }
     // Computes the greatest index in one loop without branches, and searches only if it is too large.
     std::uint32_t greatest = 0;
     for (const std::uint32_t i : mesh.indices) greatest = std::max(greatest, i);

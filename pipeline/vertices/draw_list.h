@@ -9,9 +9,11 @@
 #include "pipeline/device/vertex_path.h"
 #include "pipeline/formats/texture.h"
 #include "rasterizer/base/vector.h"
+#include "rasterizer/rules/primitive.h"
 
 namespace strata::pipeline {
 
+using rasterizer::Primitive;
 using strata::identity;
 using strata::Matrix;
 using strata::Rgba;
@@ -19,7 +21,7 @@ using strata::Vec2;
 using strata::Vec3;
 
 // A mesh in object space. `normals` must not be empty if the material is lit; `colors` and `texcoords` may be. An
-// attribute is empty or has one value per position; three indices form a triangle.
+// attribute is empty or has one value per position; three indices form a primitive (rasterizer/rules/primitive.h).
 struct Mesh {
     std::string name;
     std::vector<Vec3> positions;
@@ -29,8 +31,9 @@ struct Mesh {
     std::vector<Rgba> colors;
     // The coordinates for the material's base colour texture, with its transform applied.
     std::vector<Vec2> texcoords;
-    // Three per triangle.
+    // Three per triangle; a line has its first end twice, then the second; a point its vertex three times.
     std::vector<std::uint32_t> indices;
+    Primitive primitive = Primitive::triangles;
     friend bool operator==(const Mesh&, const Mesh&) = default;
 };
 

@@ -67,18 +67,21 @@ void move(rasterizer::Rect& rect, int x, int y) { rect = {rect.x0 + x, rect.y0 +
 }  // namespace
 
 DrawList rotate_vertices(DrawList list, int k) {
-    for (Mesh& mesh : list.meshes)
+    for (Mesh& mesh : list.meshes) {
+        if (mesh.primitive != Primitive::triangles) continue;
         for (std::size_t at = 0; at + 3 <= mesh.indices.size(); at += 3) {
             const auto first = mesh.indices.begin() + static_cast<std::ptrdiff_t>(at);
             std::rotate(first, first + ((k % 3) + 3) % 3, first + 3);
         }
+    }
     return list;
 }
 
 Flipped flip_diagonals(DrawList list) {
     Flipped result{std::move(list), 0};
     for (Mesh& mesh : result.list.meshes)
-        if (mesh.w.empty()) result.quads += flip(mesh);  // whether homogeneous corners are in a plane is not tested
+        // Whether homogeneous corners are in a plane is not tested.
+        if (mesh.w.empty() && mesh.primitive == Primitive::triangles) result.quads += flip(mesh);
     return result;
 }
 

@@ -5,7 +5,8 @@
 //          triangles of a mesh form a quad if they share a side in opposite directions and are in one plane; (a, b, c)
 //          and (c, d, a) become (b, c, d) and (d, a, b). In one plane means: the distance of d from the plane of the
 //          first triangle is at most 2^-20 of their longest side, and the quad is convex; both limits are assumed.
-//          Moving: every window position moves by whole pixels, exactly, and so does the viewport.
+//          Lines and points stay as they are. Moving: every window position moves by whole pixels, exactly, and so does
+//          the viewport.
 // Tests    tests/pipeline/vertices/other_splits_test.cpp
 #pragma once
 #include <cstdint>

@@ -91,7 +91,8 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
                          .double_sided = material.double_sided,
                          .mirrored = linear_determinant(instance.model) < 0,
                          .lent = indices == Indices::lent ? mesh.indices.data() : nullptr,
-                         .first_vertex = base});
+                         .first_vertex = base,
+                         .primitive = mesh.primitive});
 }
 
 // The soup of the selected instances, whose vertices have no values yet.

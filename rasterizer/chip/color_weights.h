@@ -72,7 +72,8 @@ class ColorWeights {
             const TwoTerms x = two_sum(b[(i + 1) % 3], b[(i + 2) % 3]);
             const double scaled = 256.0 * x.high;
             const auto down = static_cast<std::int32_t>(scaled);
-            return 256 - down - (down < scaled || x.low > 0.0 ? 1 : 0);
+            const int cut = down < scaled || x.low > 0.0 ? 1 : 0, floor = 256 - down - cut;
+            return floor < 0 ? floor + cut : floor;  // negative beyond a smooth polygon's sides: toward zero
         };
         const std::int32_t w0 = whole(0), w2 = whole(2);
         return {w0, 256 - w0 - w2, w2};

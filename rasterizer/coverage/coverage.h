@@ -33,6 +33,22 @@ class TriangleEdges {
     constexpr TriangleEdges(const std::array<SubpixelPoint, 3>& p, TieRule rule, std::uint8_t negative_w) noexcept
         : TriangleEdges(p, rule, Edge{p[0], p[1]}.at(p[2]), negative_w) {}
 
+    // The edge values of a line: 0 for the first corner, and those of its ends for the two others. They fall and rise
+    // along `direction`; their sum is the length from `from` to `to` in that direction, which must be positive.
+    [[nodiscard]] static constexpr TriangleEdges along(SubpixelPoint from, SubpixelPoint to,
+                                                       SubpixelPoint direction) noexcept {
+        // An edge turned by 90 degrees: its value is the distance along the direction.
+        const SubpixelPoint forward{direction.y, -direction.x}, backward{-direction.y, direction.x};
+        const auto end = [](SubpixelPoint p, SubpixelPoint d) { return SubpixelPoint{p.x + d.x, p.y + d.y}; };
+        const Edge second{to, end(to, backward)}, third{from, end(from, forward)};
+        return {{Edge{from, from}, second, third}, third.at(to)};
+    }
+    // The edge values of a point: its first corner has the whole area, 1, everywhere.
+    [[nodiscard]] static constexpr TriangleEdges everywhere() noexcept {
+        constexpr Edge none{{0, 0}, {0, 0}};
+        return {{none, none, none}, 1};
+    }
+
     // Twice the area in square subpixels: the sum of the edge values at any point.
     [[nodiscard]] constexpr std::int64_t area() const noexcept { return area_; }
     [[nodiscard]] constexpr const Edge& edge(std::size_t i) const noexcept { return edge_[i]; }
@@ -53,6 +69,9 @@ class TriangleEdges {
           tie_{edge_[0].owns_ties(rule) ? 0 : 1, edge_[1].owns_ties(rule) ? 0 : 1, edge_[2].owns_ties(rule) ? 0 : 1},
           area_{area > 0 ? area : -area} {}
 
+    constexpr TriangleEdges(const std::array<Edge, 3>& edge, std::int64_t area) noexcept
+        : edge_{edge}, tie_{}, area_{area} {}
+
     std::array<Edge, 3> edge_;
     EdgeValues tie_;
     std::int64_t area_;
@@ -71,6 +90,11 @@ class TriangleEdges {
     };  // one past the last centre <= c
     return {first(left), first(top), end(right), end(bottom)};
 }
+
+// Pixels [x0, x1) of a row of the surface.
+struct RowSpan {
+    int x0, x1;
+};
 
 // Covered pixels [x0, x1) of a row, and the exact edge values at x0.
 struct PixelSpan {

@@ -73,6 +73,15 @@ struct SampleCoverage {
     friend bool operator==(const SampleCoverage&, const SampleCoverage&) = default;
 };
 
+// NV2A's lines, chosen by its register SMOOTHING_CONTROL and by LINE_SMOOTH. band: a rectangle of the line's width.
+// thin: one pixel per step of the longer direction, only for a width of one pixel. smooth: the band at eight samples of
+// a pixel, whose share multiplies alpha (lines-and-points.md 2 to 3).
+enum class LineStyle : std::uint8_t { band, thin, smooth };
+
+// glPolygonStipple: bit 31 - x % 32 of row y % 32, counted from the window's upper left pixel, keeps pixel (x, y) of a
+// triangle (lines-and-points.md 6).
+using PolygonStipple = std::array<std::uint32_t, 32>;
+
 struct RasterState {
     // The viewport rectangle, which is also the extent of the surface: fragments outside it do not exist.
     Rect viewport;
@@ -101,7 +110,11 @@ struct RasterState {
     // For single-sided triangles: double-sided ones are never culled.
     CullFace cull = CullFace::back;
     FrontFace front_face = FrontFace::counter_clockwise;
-    PolygonOffset polygon_offset;
+    PolygonOffset polygon_offset;  // of triangles
+    float line_width_px = 1.0f, point_size_px = 1.0f;
+    LineStyle line_style = LineStyle::band;
+    bool smooth_polygons = false;  // NV2A's POLY_SMOOTH: as LineStyle::smooth, for triangles
+    std::optional<PolygonStipple> polygon_stipple{};
     std::array<ClipPlane, 6> clip_planes{};
     // The number of clip_planes in use, 0 to 6.
     int clip_plane_count = 0;

@@ -7,6 +7,7 @@
 #include "rasterizer/rules/depth_code.h"
 #include "rasterizer/rules/depth_hypothesis.h"
 #include "rasterizer/rules/interpolation_hypothesis.h"
+#include "rasterizer/rules/primitive.h"
 
 namespace strata::rasterizer {
 
@@ -73,6 +74,15 @@ enum class OffsetUnit : std::uint8_t { format, float_exponent, buffer, two_codes
 // Polygon offset is added to z of the corners, or by NV2A to the value of every fragment (window_z.h).
 enum class OffsetRule : std::uint8_t { corners, fragments };
 
+// Which pixels a line covers. none: lines are refused. band: NV2A's, by the style of the state. diamond_exit: OpenGL's
+// and Direct3D's line of one pixel per step of its longer direction, and OpenGL's wide lines (lines-and-points.md 2 to
+// 4).
+enum class LineRule : std::uint8_t { none, band, diamond_exit };
+// Which pixels a point covers. none: points are refused. square: the centres within half its size, left and upper side
+// included. reciprocal: the same by NV2A's reciprocal, which includes the right and lower side unless the size is a
+// power of two (lines-and-points.md 5).
+enum class PointRule : std::uint8_t { none, square, reciprocal };
+
 // How a fragment's depth is computed (depth.md 4): depth_paths.h, window_z.h, plane.h.
 enum class DepthPath : std::uint8_t {
     window_z,
@@ -115,9 +125,19 @@ struct RasterRules {
     OffsetRule offset_rule = OffsetRule::corners;  // for paths window_z and w_buffer
     ColorInterpolation color = ColorInterpolation::exact_plane;
     EqualColors equal_colors = EqualColors::interpolated;
+    LineRule lines = LineRule::none;
+    PointRule points = PointRule::none;
     DepthHypothesis hypothesis{};             // assumptions about the depth paths
     InterpolationHypothesis interpolation{};  // and about colours and texture coordinates
     friend bool operator==(const RasterRules&, const RasterRules&) = default;
 };
+
+// True if the rules say which pixels a shape covers. Values of lines and points are exact planes of snapped corners.
+[[nodiscard]] constexpr bool draws(const RasterRules& r, Shape shape) noexcept {
+    if (shape == Shape::triangle) return true;
+    return r.coverage == CoverageRule::snapped_edges && r.plane_rule == PlaneRule::exact &&
+           r.plane_origin == PlaneOrigin::snapped &&
+           (shape == Shape::line ? r.lines != LineRule::none : r.points != PointRule::none);
+}
 
 }  // namespace strata::rasterizer

@@ -12,6 +12,7 @@
 #include "rasterizer/coverage/coverage.h"
 #include "rasterizer/coverage/small_triangles.h"
 #include "rasterizer/set_up/geometry.h"
+#include "rasterizer/set_up/triangle_walk.h"
 
 namespace strata::rasterizer {
 namespace {
@@ -50,6 +51,7 @@ class TileWalk {
             return;
         }
         const int bits = geometry_.rules.subpixel_bits;
+        if (triangle.shape() != Shape::triangle) return visit_shape(triangle, {x0, y0, x1 + 1, y1 + 1}, visit);
         const TriangleEdges edges{geometry_.points(triangle), geometry_.rules.tie_rule};
         for (int y = y0; y <= y1; ++y)
             for (int x = x0; x <= x1; ++x)
@@ -57,6 +59,18 @@ class TileWalk {
     }
 
   private:
+    // The tiles of a shape's box that none of its sides excludes.
+    template <class Visit>
+    void visit_shape(const TriangleRecord& record, const Rect& tiles, Visit&& visit) const {
+        const ShapeCoverage shape = shape_coverage(geometry_, record);
+        const int margin = is_smooth(geometry_, record.shape()) ? 1 : 0;  // samples beside the centres
+        for (int y = tiles.y0; y < tiles.y1; ++y)
+            for (int x = tiles.x0; x < tiles.x1; ++x) {
+                const Rect r = rect_of(x, y, geometry_);
+                const Rect reached{r.x0 - margin, r.y0 - margin, r.x1 + margin, r.y1 + margin};
+                if (may_cover(shape, reached, geometry_.rules.subpixel_bits)) visit(number(x, y));
+            }
+    }
     [[nodiscard]] static bool is_small(const PixelBox& box) noexcept {
         return box.x1 - box.x0 <= TriangleGroup::max_width && box.y1 - box.y0 <= TriangleGroup::max_height;
     }

@@ -10,6 +10,10 @@
 namespace strata::rasterizer {
 namespace {
 
+void check_size(const Requirements& state, const char* field, float px) {
+    if (!(px >= 0.0f && px <= greatest_size_px)) state.fail(FieldName{field}, "0 to 65536", px);
+}
+
 void check_viewport(const Requirements& state, const Rect& v) {
     state.within("viewport.x0", v.x0, 0, greatest_coordinate_px);
     state.within("viewport.y0", v.y0, 0, greatest_coordinate_px);
@@ -82,6 +86,11 @@ void check(const RasterState& state) {
         const ClipPlane& plane = state.clip_planes[i];
         for (const float value : {plane.a, plane.b, plane.c, plane.d}) its.finite({"clip_planes", i}, value);
     }
+    check_size(its, "line_width_px", state.line_width_px);
+    check_size(its, "point_size_px", state.point_size_px);
+    its.listed("line_style", state.line_style);
+    if (state.line_style == LineStyle::thin && state.line_width_px != 1.0f)
+        its.fail(FieldName{"line_width_px"}, "1 with line_style thin", state.line_width_px);
     its.listed("clip_depth", state.clip_depth);
     its.listed("depth_order", state.depth_order);
     its.listed("y_direction", state.y_direction);
@@ -99,6 +108,7 @@ void check(const TriangleSoup& soup) {
     std::uint64_t triangles = 0;
     for (std::size_t i = 0; i < soup.runs.size(); ++i) {
         const TriangleRun& run = soup.runs[i];
+        its.listed({"runs", i, "primitive"}, run.primitive);
         if (run.index_count % 3 != 0) its.fail(FieldName{"runs", i, "index_count"}, "a multiple of 3", run.index_count);
         if (run.lent == nullptr && std::uint64_t{run.first_index} + run.index_count > soup.indices.size())
             its.fail(FieldName{"runs", i}, "an end within " + std::to_string(soup.indices.size()) + " indices",
@@ -108,6 +118,24 @@ void check(const TriangleSoup& soup) {
     its.within("runs", triangles, 0, most);
     its.within("order", std::uint64_t{soup.order.size()}, 0, most);
     check_numbers(its, "order", soup.order, triangles);
+}
+
+void check(const TriangleSoup& soup, const RasterState& state, const RasterRules& rules) {
+    if (state.smooth_polygons && (rules.lines != LineRule::band || state.sample))
+        throw InputError("raster state", "smooth_polygons", "false, because the rules have none", "true");
+    for (std::size_t i = 0; i < soup.runs.size(); ++i) {
+        const Shape shape = shape_of(soup.runs[i].primitive);
+        if (shape == Shape::triangle) continue;
+        const std::string primitive = FieldName{"runs", i, "primitive"}.text();
+        const std::string found = shape == Shape::line ? "lines" : "points";
+        const auto require = [&](bool is_met, const std::string& expected) {
+            if (!is_met) throw InputError("triangle soup", primitive, expected, found);
+        };
+        require(draws(rules, shape), "triangles, because the rules have no " + found);
+        require(shape != Shape::line || state.line_style == LineStyle::band || rules.lines == LineRule::band,
+                "line_style band, because the rules have no other");
+        require(!state.sample, "triangles, because the frame has sample positions");
+    }
 }
 
 }  // namespace strata::rasterizer

@@ -11,10 +11,14 @@
 namespace strata::rasterizer {
 
 inline constexpr int greatest_coordinate_px = 32768;
+// Of line widths and point sizes: more than every viewport has.
+inline constexpr float greatest_size_px = 65536.0f;
 
 // Checks ranges, enums and finiteness of every field that set-up reads.
 void check(const RasterState& state);
 // Checks the indices and the order in one pass.
 void check(const TriangleSoup& soup);
+// The rules and the state of lines and points, if the soup has any.
+void check(const TriangleSoup& soup, const RasterState& state, const RasterRules& rules);
 
 }  // namespace strata::rasterizer

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "rasterizer/coverage/line_coverage.h"
 #include "rasterizer/set_up/window.h"
 
 namespace strata::rasterizer {
@@ -46,6 +47,21 @@ namespace {
     return 2.0 * relative * (across * width + down * height) + 16.0 * unit * size;
 }
 
+// How much farther than its corners' a shape's depth can be: of a line that is drawn beyond its ends, and of a smooth
+// polygon up to a pixel outside.
+[[nodiscard]] double beyond_corners(const Geometry& geometry, const TriangleRecord& record,
+                                    const std::array<double, 3>& z) {
+    const auto p = geometry.points(record);
+    if (record.shape() == Shape::line)
+        return line_overshoot(p[1], p[2], geometry.state, geometry.rules) * std::fabs(z[2] - z[1]);
+    if (record.shape() != Shape::polygon) return 0.0;
+    const double units = 1 << geometry.rules.subpixel_bits, area = static_cast<double>(geometry.edges(record).area());
+    const auto span = [&](std::size_t i, std::size_t k) {
+        return std::abs(static_cast<double>(p[i].x - p[k].x)) + std::abs(static_cast<double>(p[i].y - p[k].y));
+    };
+    return units * (std::fabs(z[1] - z[0]) * span(2, 0) + std::fabs(z[2] - z[0]) * span(1, 0)) / area;
+}
+
 }  // namespace
 
 double depth_bound(const Geometry& geometry, std::span<const std::uint32_t> triangles) {
@@ -72,6 +88,7 @@ double depth_bound(const Geometry& geometry, std::span<const std::uint32_t> tria
         double most = larger(larger(z[0], z[1]), z[2]);
         if (geometry.rules.plane_origin == PlaneOrigin::unsnapped)
             most += beyond * steepness(geometry, geometry.triangles[i], z);
+        if (geometry.has_other_shapes) most += beyond_corners(geometry, geometry.triangles[i], z);
         if (geometry.rules.plane_rule != PlaneRule::exact) most += step_error(geometry, geometry.triangles[i], z);
         greatest = larger(most, greatest);
         const double corners = larger(larger(std::fabs(z[0]), std::fabs(z[1])), std::fabs(z[2]));

@@ -8,6 +8,7 @@
 
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/parallel.h"
+#include "rasterizer/coverage/line_coverage.h"
 #include "rasterizer/set_up/check_input.h"
 #include "rasterizer/set_up/setup.h"
 
@@ -55,7 +56,8 @@ class Listing {
     // The number of triangles of run `run` that are contiguous from `primitive` on in submission order, with contiguous
     // indices.
     [[nodiscard]] std::size_t side_by_side(std::size_t primitive, std::size_t run) const {
-        return soup_.order.empty() && primitive >= start_[run] && primitive < start_[run + 1]
+        return soup_.order.empty() && primitive >= start_[run] && primitive < start_[run + 1] &&
+                       soup_.runs[run].primitive == Primitive::triangles
                    ? start_[run + 1] - primitive
                    : 0;
     }
@@ -149,6 +151,12 @@ SetupTriangle Geometry::triangle(std::size_t i) const noexcept {
     return t;
 }
 
+TriangleEdges Geometry::other_edges(const TriangleRecord& t) const noexcept {
+    if (t.shape() == Shape::point) return TriangleEdges::everywhere();
+    const auto [first, a, b] = points(t);
+    return line_edges(a, b, state, rules);
+}
+
 namespace {
 
 // The tie rule in the row order of memory.
@@ -168,6 +176,7 @@ Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& 
     const RasterRules rules = in_memory_rows(given_rules, state);
     check(state);
     check(soup);
+    check(soup, state, rules);
     const bool settles = state.window_positions && rules.w_signs == WSigns::by_corner;
     TriangleSetup setup{state, rules, soup.vertices, soup.extras};
     Chunks{soup.vertices.size()}.for_each(threads, [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -204,6 +213,9 @@ Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& 
     Geometry geometry;
     geometry.state = state;
     geometry.rules = rules;
+    geometry.has_other_shapes = state.smooth_polygons || std::ranges::any_of(soup.runs, [](const TriangleRun& run) {
+                                    return run.primitive != Primitive::triangles;
+                                });
     geometry.vertices = std::move(soup.vertices);
     geometry.corners = std::move(setup.corners());
     geometry.extras = std::move(soup.extras);

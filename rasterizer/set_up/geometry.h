@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "rasterizer/base/uninitialized.h"
+#include "rasterizer/coverage/coverage.h"
 #include "rasterizer/coverage/fragment_batch.h"
 #include "rasterizer/coverage/window_corner.h"
+#include "rasterizer/rules/primitive.h"
 #include "rasterizer/rules/raster_state.h"
 
 namespace strata::rasterizer {
@@ -46,7 +48,7 @@ struct VertexExtras {
     }
 };
 
-// A run of triangles with one material: three indices each, in submission order.
+// A run of primitives of one kind with one material: three indices each (primitive.h), in submission order.
 struct TriangleRun {
     std::uint32_t first_index = 0, index_count = 0;
     std::uint32_t material = 0;
@@ -57,9 +59,10 @@ struct TriangleRun {
     // `first_vertex`.
     const std::uint32_t* lent = nullptr;
     std::uint32_t first_vertex = 0;
+    Primitive primitive = Primitive::triangles;
 };
 
-// The input of one draw. Runs refer to triples of `indices` or to borrowed ones; triangles are numbered through the
+// The input of one draw. Runs refer to triples of `indices` or to borrowed ones; primitives are numbered through the
 // runs in their order.
 struct TriangleSoup {
     UninitializedVector<ClipVertex> vertices;
@@ -70,20 +73,30 @@ struct TriangleSoup {
     VertexExtras extras;
 };
 
-// A triangle after clipping, snapping and the facing test; one source triangle may become several (a fan from its first
-// corner). Corners are in submission order: geforce3's depth and colour depend on it.
+// A primitive after clipping, snapping and the facing test; one source triangle may become several (a fan from its
+// first corner). Corners are in submission order: geforce3's depth and colour depend on it. A line has its first end
+// twice, then the second; a point has its vertex three times.
 struct TriangleRecord {
     std::array<std::uint32_t, 3> vertex{};  // into Geometry::vertices and Geometry::corners
     std::uint32_t primitive = 0;            // submission index of the source triangle
     std::uint32_t material = 0;
-    PixelBox box;  // the pixels of the viewport whose centres are in its bounding box; not empty
+    PixelBox box;  // the pixels of the viewport whose centres are in its bounding box, or those of a line's or point's
+                   // box (line_coverage.h); not empty
     bool front_facing : 1 = true;
     // If set, the box has at most tiny_size pixels in each direction, the corners are at most TriangleGroup::max_extent
     // apart, and `covered` has a bit for each covered pixel of the box: row by row, tiny_size bits per row. At least
     // one bit is set.
     bool is_tiny : 1 = false;
-    std::uint8_t negative_w = 0;  // bit i: w of corner i is negative (WSigns::by_corner)
+    // 0 for a triangle whose edges alone decide. Bits 0 to 2: w of that corner is negative (WSigns::by_corner); the
+    // bits above: the Shape.
+    std::uint8_t special = 0;
     std::uint16_t covered = 0;
+
+    [[nodiscard]] std::uint8_t negative_w() const noexcept { return special & 7; }
+    [[nodiscard]] Shape shape() const noexcept { return static_cast<Shape>(special >> 3); }
+    [[nodiscard]] static std::uint8_t special_of(Shape shape) noexcept {
+        return static_cast<std::uint8_t>(static_cast<unsigned>(shape) << 3);
+    }
 };
 inline constexpr int tiny_size = 4;
 
@@ -101,7 +114,8 @@ struct SetupTriangle {
     bool front_facing = true;
 };
 
-// Exact counts of the dropped triangles by reason; `first_non_finite` is a source triangle. A source triangle is
+// Exact counts of the dropped triangles (or lines or points) by reason; `first_non_finite` is a source triangle. A
+// source triangle is
 // counted in triangles_in and in at most one of culled, outside, degenerate, uncovered and non_finite; `clipped` counts
 // those that were clipped and not found outside (rasterizer/reference/coverage.md 7.1).
 struct SetupCounters {
@@ -123,6 +137,7 @@ struct Geometry {
     // PlaneCorners::given.
     std::vector<std::array<std::uint32_t, 3>> given;
     SetupCounters counters;
+    bool has_other_shapes = false;  // than triangles
     int tile_size = 0, tiles_x = 0, tiles_y = 0;
     std::vector<std::uint32_t> bin_start;              // tiles_x * tiles_y + 1 offsets into bin_triangles
     UninitializedVector<std::uint32_t> bin_triangles;  // indices into triangles, ascending within a bin
@@ -139,6 +154,11 @@ struct Geometry {
     [[nodiscard]] std::array<SubpixelPoint, 3> points(const TriangleRecord& t) const noexcept {
         return {corners[t.vertex[0]].p, corners[t.vertex[1]].p, corners[t.vertex[2]].p};
     }
+    // The edges from which its values are interpolated; a triangle's cover its pixels, too.
+    [[nodiscard]] TriangleEdges edges(const TriangleRecord& t) const noexcept {
+        if (is_polygon(t.shape())) return {points(t), rules.tie_rule};
+        return other_edges(t);
+    }
     // Positions before snapping, in pixels.
     [[nodiscard]] std::array<std::array<float, 2>, 3> positions(const TriangleRecord& t) const noexcept {
         return {corners[t.vertex[0]].unsnapped, corners[t.vertex[1]].unsnapped, corners[t.vertex[2]].unsnapped};
@@ -150,6 +170,9 @@ struct Geometry {
         return {corners[a].z, corners[b].z, corners[c].z};
     }
     [[nodiscard]] SetupTriangle triangle(std::size_t i) const noexcept;
+
+  private:
+    [[nodiscard]] TriangleEdges other_edges(const TriangleRecord& t) const noexcept;
 };
 
 // Writes the vertices of a soup, starting at vertex `begin`.

@@ -7,6 +7,7 @@
 
 #include "rasterizer/coverage/coverage.h"
 #include "rasterizer/coverage/float_spans.h"
+#include "rasterizer/coverage/line_coverage.h"
 #include "rasterizer/set_up/polygon_offset.h"
 #include "rasterizer/set_up/stepped_offset.h"
 
@@ -71,7 +72,9 @@ TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules,
       plain_rules_{window_.plain_rules(state.clip_depth)},
       set_up_plain_{clipper_.holds_view_volume() && plain_rules_ ? rasterizer::set_up_plain() : nullptr},
       needs_scalar_setup_{rules.area_sign == AreaSign::single || rules.plane_corners == PlaneCorners::given},
-      set_up_plain_triangles_{state.polygon_offset.enabled || state.window_positions || needs_scalar_setup_ ? nullptr
+      set_up_plain_triangles_{state.polygon_offset.enabled || state.window_positions || needs_scalar_setup_ ||
+                                      state.smooth_polygons
+                                  ? nullptr
                               : rules.coverage == CoverageRule::snapped_edges ? rasterizer::set_up_plain_triangles()
                                                                               : rasterizer::set_up_plain_spans()},
       vertices_{vertices},
@@ -139,16 +142,6 @@ bool TriangleSetup::is_front(std::int64_t area, bool mirrored) const noexcept {
     return (clockwise == (state_.front_face == FrontFace::clockwise)) != mirrored;
 }
 
-bool TriangleSetup::is_culled(bool front) const noexcept {
-    switch (state_.cull) {
-        case CullFace::none: return false;
-        case CullFace::front: return front;
-        case CullFace::back: return !front;
-        case CullFace::front_and_back: break;
-    }
-    return true;
-}
-
 // The order of the tests decides which fate is counted.
 TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTriangle& triangle,
                                              SetupChunk& out) const {
@@ -169,18 +162,21 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
     if (shape.area_sign == 0) return Fate::degenerate;
     if (!triangle.run->double_sided && is_culled(front)) return Fate::culled;
     const std::uint8_t negative = negative_w(piece.corner);
+    if (state_.smooth_polygons) shape.box = polygon_coverage({a->p, b->p, c->p}, rules_).box;
+    if (state_.smooth_polygons && negative != 0) return Fate::outside;  // assumed
     // A triangle that extends through infinity may cover any pixel of the window; a triangle completely behind the eye
     // covers none.
     const Rect box = intersection(negative == 0 ? shape.box : state_.viewport, state_.viewport);
     if (box.area() == 0 || negative == all_corners || is_out_of_range(piece.corner)) return Fate::outside;
     if (shape.is_uncovered && negative == 0) return Fate::uncovered;
-    out.triangles.push_back({.vertex = piece.vertex,
-                             .primitive = triangle.primitive,
-                             .material = triangle.run->material,
-                             .box = in_viewport(box, state_.viewport),
-                             .front_facing = front,
-                             .negative_w = negative});
-    if (!state_.window_positions && rules_.coverage == CoverageRule::snapped_edges &&
+    out.triangles.push_back(
+        {.vertex = piece.vertex,
+         .primitive = triangle.primitive,
+         .material = triangle.run->material,
+         .box = in_viewport(box, state_.viewport),
+         .front_facing = front,
+         .special = state_.smooth_polygons ? TriangleRecord::special_of(Shape::polygon) : negative});
+    if (!state_.window_positions && !state_.smooth_polygons && rules_.coverage == CoverageRule::snapped_edges &&
         !find_tiny({a->p, b->p, c->p}, box, rules_, out.triangles.back())) {
         out.triangles.pop_back();
         return Fate::uncovered;
@@ -314,6 +310,7 @@ TriangleSetup::Fate TriangleSetup::add_clipped(const SourceTriangle& triangle, s
 // If all three vertices are outside the same plane, the triangle is outside. Otherwise it is clipped only against the
 // planes that some vertex is outside of.
 void TriangleSetup::add(const SourceTriangle& triangle, SetupChunk& out) const {
+    if (triangle.run->primitive != Primitive::triangles) return count(add_shape(triangle, out), triangle, out.counters);
     const auto& [a, b, c] = triangle.vertex;
     const VertexMarks any = marks_[a] | marks_[b] | marks_[c], crossed = any & marks_planes;
     Fate fate = Fate::non_finite;
@@ -341,7 +338,8 @@ void TriangleSetup::add(std::span<const SourceTriangle> triangles, SetupChunk& o
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const auto& [a, b, c] = triangles[k].vertex;
         const bool is_plain = (marks_[a] | marks_[b] | marks_[c]) == 0 && !state_.polygon_offset.enabled &&
-                              !state_.window_positions && !needs_scalar_setup_;
+                              !state_.window_positions && !needs_scalar_setup_ && !state_.smooth_polygons &&
+                              triangles[k].run->primitive == Primitive::triangles;
         if (is_plain && group.small[k] != 0 && rules_.coverage == CoverageRule::snapped_edges)
             count(add_small(triangles[k], group, k, out), triangles[k], out.counters);
         else

@@ -66,7 +66,7 @@ class TriangleSetup {
     void set_up_vertices(std::size_t begin, std::size_t end) noexcept;
     // Step 2: find out whether any vertex is marked.
     void find_marked() noexcept;
-    // Step 3: appends the records of `triangle` to `out`, or counts why it was dropped.
+    // Step 3: appends the records of a primitive to `out`, or counts why it was dropped.
     void add(const SourceTriangle& triangle, SetupChunk& out) const;
     // Step 3 for up to TriangleGroup::size triangles, in order; boxes and areas are computed for all of them at once.
     void add(std::span<const SourceTriangle> triangles, SetupChunk& out) const;
@@ -102,9 +102,18 @@ class TriangleSetup {
     [[nodiscard]] Fate add_small(const SourceTriangle& triangle, const TriangleGroup& group, std::size_t k,
                                  SetupChunk& out) const;
     [[nodiscard]] Fate add_clipped(const SourceTriangle& triangle, std::uint32_t planes, SetupChunk& out) const;
+    // Lines and points (shape_setup.cpp).
+    struct Ends;
+    [[nodiscard]] Fate add_shape(const SourceTriangle& source, SetupChunk& out) const;
+    [[nodiscard]] Fate add_line(const SourceTriangle& source, bool front, SetupChunk& out) const;
+    [[nodiscard]] Fate add_ends(const SourceTriangle& source, const Ends& ends, bool front, SetupChunk& out) const;
+    [[nodiscard]] std::optional<bool> polygon_faces_front(const SourceTriangle& source) const;
     static void count(Fate fate, const SourceTriangle& triangle, SetupCounters& counters) noexcept;
     [[nodiscard]] bool is_front(std::int64_t area, bool mirrored) const noexcept;
-    [[nodiscard]] bool is_culled(bool front) const noexcept;
+    [[nodiscard]] bool is_culled(bool front) const noexcept {
+        return state_.cull == CullFace::front_and_back ||
+               (state_.cull != CullFace::none && (state_.cull == CullFace::front) == front);
+    }
     [[nodiscard]] int single_turn(const SourceTriangle& triangle) const noexcept;
     [[nodiscard]] std::array<double, 3> with_offset(const std::array<const WindowCorner*, 3>& corner) const noexcept;
     [[nodiscard]] std::uint8_t negative_w(const std::array<const WindowCorner*, 3>& corner) const noexcept;

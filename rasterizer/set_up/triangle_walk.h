@@ -6,6 +6,7 @@
 #include <span>
 
 #include "rasterizer/coverage/coverage.h"
+#include "rasterizer/coverage/line_coverage.h"
 #include "rasterizer/coverage/small_triangles.h"
 #include "rasterizer/set_up/geometry.h"
 
@@ -13,16 +14,23 @@ namespace strata::rasterizer {
 
 inline constexpr int max_span_rows = 128;  // rows whose spans are found at a time
 
-struct RowSpan {
-    int x0, x1;  // pixels [x0, x1) of a row of the surface
-};
-
 // The rules of `geometry` for its triangles in `region`: clipped by viewport and scissor.
 [[nodiscard]] inline GroupRules group_rules(const Geometry& geometry, const Rect& region) noexcept {
     GroupRules rules{intersection(region, geometry.state.viewport), geometry.rules.subpixel_bits,
                      geometry.rules.tie_rule};
     if (geometry.state.scissor) rules.clip = intersection(rules.clip, *geometry.state.scissor);
     return rules;
+}
+
+// The half-planes of a line or smooth polygon; those of a point exclude nothing.
+[[nodiscard]] inline ShapeCoverage shape_coverage(const Geometry& geometry, const TriangleRecord& record) noexcept {
+    const std::array<SubpixelPoint, 3> p = geometry.points(record);
+    if (record.shape() == Shape::line) return line_coverage(p[1], p[2], geometry.state, geometry.rules);
+    return record.shape() == Shape::polygon ? polygon_coverage(p, geometry.rules) : ShapeCoverage{};
+}
+// True if the fragments of a record are those with a covered sample, and their alpha is the samples' share.
+[[nodiscard]] inline bool is_smooth(const Geometry& geometry, Shape shape) noexcept {
+    return shape == Shape::polygon || (shape == Shape::line && geometry.state.line_style == LineStyle::smooth);
 }
 
 // Sets up `triangles` (indices into geometry.triangles; at least one, at most a group's size) in `group`.

@@ -27,8 +27,8 @@ NarrowWindowZ::NarrowWindowZ(const WindowZCorners& corners, const DepthHypothesi
 }
 
 WindowZCorners window_z_corners(const Geometry& geometry, std::size_t triangle, const PolygonOffset& offset) noexcept {
-    if (!offset.enabled) return {geometry.depths(triangle), 0.0};
     const TriangleRecord& record = geometry.triangles[triangle];
+    if (!offset.enabled || !is_polygon(record.shape())) return {geometry.depths(triangle), 0.0};
     std::array<double, 3> z;
     for (std::size_t i = 0; i < 3; ++i) z[i] = geometry.corners[record.vertex[i]].z;
     const double slope = largest_slope(geometry.points(record), z, geometry.rules.subpixel_bits);
@@ -37,7 +37,7 @@ WindowZCorners window_z_corners(const Geometry& geometry, std::size_t triangle, 
 
 void wide_window_z(const Geometry& geometry, std::uint32_t triangle, const PolygonOffset& offset, const std::int32_t* x,
                    const std::int32_t* y, std::uint32_t lanes, double* values) noexcept {
-    const TriangleEdges edges{geometry.points(geometry.triangles[triangle]), geometry.rules.tie_rule};
+    const TriangleEdges edges = geometry.edges(geometry.triangles[triangle]);
     const auto [z, o] = window_z_corners(geometry, triangle, offset);
     const WindowZ24 depth{z, edges.area(), geometry.rules.hypothesis, o};
     for (; lanes != 0; lanes &= lanes - 1) {

@@ -42,7 +42,7 @@ struct ChipTriangle {
 
     [[nodiscard]] static bool suits(const PixelWeights& edges, const TriangleRecord& record,
                                     const DepthHypothesis& h) noexcept {
-        return h.weights == WeightRule::cut_edges && record.negative_w == 0 &&
+        return h.weights == WeightRule::cut_edges && record.negative_w() == 0 && edges.reach <= 1.0 &&
                edges.kind == PixelWeights::Kind::snapped && edges.area <= 0x1p52;
     }
     ChipTriangle(const PixelWeights& weights, const DepthHypothesis& h) noexcept

@@ -11,6 +11,7 @@
 
 #include "rasterizer/coverage/coverage.h"
 #include "rasterizer/coverage/fragment_batch.h"
+#include "rasterizer/coverage/line_coverage.h"
 #include "rasterizer/coverage/small_triangles.h"
 #include "rasterizer/set_up/geometry.h"
 #include "rasterizer/values/weight_lanes.h"
@@ -59,14 +60,22 @@ struct PixelWeights {
     [[nodiscard]] double filter_reach() const noexcept { return kind != Kind::unsnapped ? reach : 0.0; }
 
   private:
+    [[nodiscard]] static double line_reach(const Geometry& geometry, const TriangleRecord& line) noexcept {
+        const auto [first, a, b] = geometry.points(line);
+        return 1.0 + 2.0 * line_overshoot(a, b, geometry.state, geometry.rules);
+    }
     void snap(const Geometry& geometry, const TriangleRecord& triangle) noexcept {
-        const TriangleEdges edges{geometry.points(triangle), geometry.rules.tie_rule};
+        const TriangleEdges edges = geometry.edges(triangle);
         area = static_cast<double>(edges.area());
         e1 = plane(edges.edge(1), geometry.rules.subpixel_bits);
         e2 = plane(edges.edge(2), geometry.rules.subpixel_bits);
         kind = std::max(size(e1), size(e2)) > 0x1p53 ? Kind::snapped_wide : Kind::snapped;
         // Its fragments are beyond its corners, without a bound: exact arithmetic decides them all.
-        if (triangle.negative_w != 0) reach = std::numeric_limits<double>::infinity();
+        if (triangle.negative_w() != 0) reach = std::numeric_limits<double>::infinity();
+        if (triangle.shape() == Shape::line) reach = line_reach(geometry, triangle);
+        // The centre of a pixel with a covered sample is within a pixel of the triangle.
+        if (triangle.shape() == Shape::polygon)
+            reach = 1.0 + 2.0 * (change_per_pixel(e1) + change_per_pixel(e2)) / area;
     }
     void snap(const TriangleGroup& group, std::size_t k) noexcept {
         area = group.area[k];
@@ -104,6 +113,9 @@ struct PixelWeights {
         const std::int64_t first = number(g.value[i]) + number(g.tie[i]);
         return {static_cast<double>(right), static_cast<double>(down),
                 static_cast<double>(first - number(g.x0) * right - number(g.y0) * down)};
+    }
+    [[nodiscard]] static constexpr double change_per_pixel(const EdgePlane& e) noexcept {
+        return (e.step_x < 0.0 ? -e.step_x : e.step_x) + (e.step_y < 0.0 ? -e.step_y : e.step_y);
     }
     // A bound of every intermediate of EdgePlane::at over 2^16 by 2^16 pixels.
     [[nodiscard]] static constexpr double size(const EdgePlane& e) noexcept {

@@ -32,7 +32,7 @@ struct DrawnTriangle {
     DrawnTriangle(PixelWeights::EdgesAlone edges, const Geometry& g, std::uint32_t i, const TriangleGroup& group,
                   std::size_t k) noexcept
         : geometry{g}, index{i}, record{g.triangles[i]}, weights{edges, group, k} {}
-    [[nodiscard]] TriangleEdges edges() const noexcept { return {geometry.points(record), geometry.rules.tie_rule}; }
+    [[nodiscard]] TriangleEdges edges() const noexcept { return geometry.edges(record); }
 };
 
 // The fragments of one triangle: those of the batch from `first` on. Their pixel, x, y and primitive are written.

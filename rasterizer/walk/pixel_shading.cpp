@@ -141,7 +141,7 @@ int PixelShading::fill_at(Point& point, std::uint32_t index, int first, Fragment
 // For each sample of the pixel, the least values of the edges at the triangle's own sample where it is covered.
 void PixelShading::find_least(std::uint32_t index) {
     const TriangleRecord& record = geometry_.triangles[index];
-    edges_.emplace(geometry_.points(record), geometry_.rules.tie_rule, record.negative_w);
+    edges_.emplace(geometry_.points(record), geometry_.rules.tie_rule, record.negative_w());
     for (std::size_t s = 0; s < least_.size(); ++s)
         for (std::size_t i = 0; i < 3; ++i)
             least_[s][i] = edges_->tie(i) - change(edges_->edge(i), points_[1 + s].moved);

@@ -14,9 +14,9 @@ namespace {
 // max_row_pixels columns.
 [[nodiscard]] bool can_walk(const Geometry& geometry, const Rect& region) noexcept {
     return chosen_simd() >= Simd::avx2 && geometry.state.depth_order == DepthOrder::less &&
-           !geometry.state.window_positions && geometry.rules.plane_rule == PlaneRule::exact &&
-           geometry.rules.coverage == CoverageRule::snapped_edges && geometry.rules.subpixel_bits <= 8 &&
-           region.width() <= max_row_pixels;
+           !geometry.state.window_positions && !geometry.has_other_shapes && !geometry.state.polygon_stipple &&
+           geometry.rules.plane_rule == PlaneRule::exact && geometry.rules.coverage == CoverageRule::snapped_edges &&
+           geometry.rules.subpixel_bits <= 8 && region.width() <= max_row_pixels;
 }
 
 [[nodiscard]] bool has_float_rows(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept {
@@ -50,7 +50,7 @@ DepthDrawn draw_depth_rows(const Geometry& geometry, std::span<const std::uint32
 
 void decide_lanes(const RationalPlane& plane, const Geometry& geometry, std::uint32_t index, const std::int32_t* x,
                   const std::int32_t* y, std::uint32_t lanes, float* values) noexcept {
-    const TriangleEdges edges{geometry.points(geometry.triangles[index]), geometry.rules.tie_rule};
+    const TriangleEdges edges = geometry.edges(geometry.triangles[index]);
     for (; lanes != 0; lanes &= lanes - 1) {
         const int i = std::countr_zero(lanes);
         const SubpixelPoint centre = pixel_centre(x[i], y[i], geometry.rules.subpixel_bits);
@@ -60,7 +60,7 @@ void decide_lanes(const RationalPlane& plane, const Geometry& geometry, std::uin
 
 FilterPlane constant_filter(const RationalPlane& plane, const Geometry& geometry, std::uint32_t index) noexcept {
     FilterPlane filter;
-    const TriangleEdges edges{geometry.points(geometry.triangles[index]), geometry.rules.tie_rule};
+    const TriangleEdges edges = geometry.edges(geometry.triangles[index]);
     // Both slopes and the error are 0: every pixel gets this value.
     filter.w0 = constant_float(plane, edges.area());
     return filter;

@@ -8,6 +8,7 @@
 #include "rasterizer/coverage/float_spans.h"
 #include "rasterizer/set_up/triangle_walk.h"
 #include "rasterizer/values/fragment_values.h"
+#include "rasterizer/values/lane_kernels.h"
 #include "rasterizer/walk/pixel_shading.h"
 
 namespace strata::rasterizer {
@@ -55,9 +56,9 @@ class TileRasterizer::Pass {
     void draw_group(std::span<const std::uint32_t> triangles) {
         for (std::size_t k = 0; k < triangles.size(); ++k) {
             const TriangleRecord& record = geometry_.triangles[triangles[k]];
-            if (group_.reached[k] == 0 && record.negative_w == 0) continue;
+            if (group_.reached[k] == 0 && record.special == 0) continue;
             use_material(record.material);
-            if (group_.small[k] != 0 && record.negative_w == 0)
+            if (group_.small[k] != 0 && record.special == 0)
                 draw_small(triangles[k], k);
             else
                 draw_large(triangles[k]);
@@ -113,14 +114,36 @@ class TileRasterizer::Pass {
 
     void draw_large(std::uint32_t index) {
         const DrawnTriangle triangle{geometry_, index};
-        const Rect corners = centre_box(geometry_.points(triangle.record), rules_.subpixel_bits);
-        // With a negative w the triangle extends beyond its corners.
-        const Rect box = triangle.record.negative_w == 0 ? intersection(corners, rules_.clip) : rules_.clip;
+        const Rect box = drawn_box(triangle.record);
+        if (triangle.record.shape() != Shape::triangle) shape_ = shape_coverage(geometry_, triangle.record);
         for (Rect rows = box; rows.y0 < box.y1; rows.y0 = rows.y1) {
             rows.y1 = std::min(box.y1, rows.y0 + max_span_rows);
             emit(triangle, rows);
         }
         fill(triangle);
+    }
+
+    // The box of a line or point is in the record. With a negative w the triangle extends beyond its corners.
+    [[nodiscard]] Rect drawn_box(const TriangleRecord& record) const noexcept {
+        if (record.special == 0)
+            return intersection(centre_box(geometry_.points(record), rules_.subpixel_bits), rules_.clip);
+        if (record.shape() == Shape::triangle) return rules_.clip;
+        const Rect& viewport = geometry_.state.viewport;
+        const PixelBox& box = record.box;
+        return intersection({viewport.x0 + box.x0, viewport.y0 + box.y0, viewport.x0 + box.x1, viewport.y0 + box.y1},
+                            rules_.clip);
+    }
+
+    // The covered span of each of `rows`.
+    void find_spans_of(const TriangleRecord& record, const Rect& rows) noexcept {
+        if (record.shape() == Shape::triangle)
+            return find_spans(TriangleEdges{geometry_.points(record), geometry_.rules.tie_rule, record.negative_w()},
+                              rows, rules_.subpixel_bits, spans_.data());
+        for (int y = rows.y0; y < rows.y1; ++y)
+            spans_[static_cast<std::size_t>(y - rows.y0)] =
+                is_smooth(geometry_, record.shape())
+                    ? touched_span(shape_, {rows.x0, rows.x1}, y, rules_.subpixel_bits)
+                    : covered_span(shape_, {rows.x0, rows.x1}, y, rules_.subpixel_bits);
     }
 
     [[nodiscard]] RowRun row_run(const DrawnTriangle& triangle, const Rect& rows) const noexcept {
@@ -130,9 +153,7 @@ class TileRasterizer::Pass {
 
     // The kernel stops if the batch is full or contains the next pixel, and continues with an empty one.
     void emit(const DrawnTriangle& triangle, const Rect& rows) {
-        const TriangleEdges edges{geometry_.points(triangle.record), geometry_.rules.tie_rule,
-                                  triangle.record.negative_w};
-        find_spans(edges, rows, rules_.subpixel_bits, spans_.data());
+        find_spans_of(triangle.record, rows);
         RowRun run = row_run(triangle, rows);
         while (!kernels_.emit(spans_.data(), run, owner_.claims_, batch_)) fill_and_flush(triangle);
     }
@@ -143,12 +164,35 @@ class TileRasterizer::Pass {
     }
 
     void fill(const DrawnTriangle& triangle) {
+        const Shape shape = triangle.record.shape();
+        const bool has_samples = is_smooth(geometry_, shape);
+        if (geometry_.state.polygon_stipple && is_polygon(shape))
+            keep([pattern = *geometry_.state.polygon_stipple](std::uint32_t x, std::uint32_t y) {
+                return (pattern[y % 32] << (x % 32) & 0x80000000u) != 0;
+            });
+        if (has_samples) keep([this](int x, int y) { return samples_at(x, y) > 0; });
         if (batch_.count == first_) return;
         int fallbacks = values_.fill(triangle, first_, batch_, owner_.weights_);
         if (shading_ != nullptr && batch_.count > first_)
             fallbacks += shading_->fill(triangle.index, first_, batch_, owner_.weights_);
+        if (has_colors_ && has_samples)
+            for (auto i = static_cast<std::size_t>(first_); i < static_cast<std::size_t>(batch_.count); ++i)
+                batch_.color[3][i] *= smooth_alpha(samples_at(batch_.x[i], batch_.y[i]));
         owner_.exact_fallbacks_ += static_cast<std::uint64_t>(fallbacks);
         first_ = batch_.count;
+    }
+
+    [[nodiscard]] int samples_at(int x, int y) const noexcept {
+        return covered_samples(shape_, x, y, rules_.subpixel_bits);
+    }
+
+    // Drops the fragments since first_ at which `is_kept` does not hold; their values are not computed yet.
+    template <class IsKept>
+    void keep(const IsKept& is_kept) noexcept {
+        auto kept = static_cast<std::size_t>(first_);
+        for (auto i = kept; i < static_cast<std::size_t>(batch_.count); ++i)
+            if (is_kept(batch_.x[i], batch_.y[i])) move_lane(i, kept++, batch_, owner_.weights_);
+        batch_.count = static_cast<int>(kept);
     }
 
     TileRasterizer& owner_;
@@ -162,6 +206,7 @@ class TileRasterizer::Pass {
     bool has_colors_;
     GroupRules rules_;
     TriangleGroup group_;
+    ShapeCoverage shape_;  // of the current shape that is not a triangle
     // The current triangle's first fragment in the batch without values; between triangles all fragments have values.
     int first_ = 0;
     std::array<RowSpan, max_span_rows + 1> spans_;

@@ -1,6 +1,7 @@
 // rasterizer/values/attributes/chip_attributes.cpp - decides per triangle between NV2A's kernels and the definitions.
 #include "rasterizer/values/attributes/chip_attributes.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "rasterizer/chip/color_weights.h"
@@ -47,6 +48,11 @@ using Corners3 = std::array<float, 3>;
     }
     return is_done;
 }
+// A smooth line's colours beyond its ends are those of the ends.
+[[nodiscard]] EdgeValues between_ends(const EdgeValues& e, std::int64_t area) noexcept {
+    const std::int64_t second = std::clamp(e[2], std::int64_t{0}, area);
+    return {0, area - second, second};
+}
 [[nodiscard]] bool is_finite(double v) noexcept { return v - v == 0.0; }
 
 }  // namespace
@@ -70,9 +76,17 @@ void fill_chip_colors(const ChipKernels* kernels, const TriangleFragments& f, co
     }
     const ColorWeights weights{w_of(triangle), inverse_w, lanes.edges->area(), rules.hypothesis,
                                hypothesis.perspective_color};
+    const bool is_line = triangle.record.shape() == Shape::line;
     for (int i = 0; i < lanes.count; ++i) {
-        const std::array<std::int32_t, 3> w = weights.at(lanes.edge_values(i));
-        for (std::size_t c = 0; c < color_channels; ++c) colors.out[c][i] = weighted_color(w, colors.codes[c]);
+        const EdgeValues e = lanes.edge_values(i);
+        const std::array<std::int32_t, 3> w = weights.at(is_line ? between_ends(e, lanes.edges->area()) : e);
+        for (std::size_t c = 0; c < color_channels; ++c) {
+            const auto& codes = colors.codes[c];
+            const auto [least, most] = std::minmax({codes[0], codes[1], codes[2]});
+            // Beyond a smooth polygon's sides, within the corners' colours.
+            colors.out[c][i] = std::clamp(weighted_color(w, codes), static_cast<float>(least) / 255.0f,
+                                          static_cast<float>(most) / 255.0f);
+        }
     }
 }
 

@@ -16,6 +16,11 @@ void fill_by(const Rule& rule, const TriangleLanes& lanes, double* out) noexcept
     for (int i = 0; i < lanes.count; ++i) out[i] = rule.value(lanes.edge_values(i));
 }
 
+// Lines and points are not moved.
+[[nodiscard]] PolygonOffset offset_of(const DepthConstants& c, const DepthInput& in) noexcept {
+    return is_polygon(in.triangle.record.shape()) ? c.scale.chip.offset : PolygonOffset{};
+}
+
 // The intersection of viewport and scissor.
 [[nodiscard]] Rect drawn_rect(const RasterState& state) noexcept {
     return state.scissor ? intersection(state.viewport, *state.scissor) : state.viewport;
@@ -31,7 +36,7 @@ void codes_of_values(const DepthScale& scale, const double* value, int count, st
 
 int chip_window_z_values(const DepthConstants& c, const DepthInput& in, double* out) noexcept {
     const RasterRules& rules = in.triangle.geometry.rules;
-    const PolygonOffset& offset = c.scale.chip.offset;
+    const PolygonOffset offset = offset_of(c, in);
     const SetupTriangle& t = in.corners;
     const std::int64_t area = in.lanes.edges->area();
     if (offset.enabled) {
@@ -45,7 +50,7 @@ int chip_window_z_values(const DepthConstants& c, const DepthInput& in, double* 
 
 int w_buffer_values(const DepthConstants& c, const DepthInput& in, double* out) noexcept {
     const Geometry& geometry = in.triangle.geometry;
-    const PolygonOffset& offset = c.scale.chip.offset;
+    const PolygonOffset offset = offset_of(c, in);
     const std::array<float, 3> w = scaled_w(in.corners, geometry.state.w_scale);
     const bool has_slope = offset.enabled && offset.factor != 0.0f;
     const double slope = has_slope ? w_slope(in.corners, w, drawn_rect(geometry.state), geometry.rules) : 0.0;

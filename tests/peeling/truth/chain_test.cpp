@@ -148,6 +148,15 @@ TEST_CASE("the exact chain gives the same picture for every device and format") 
     CHECK(render_chain({list, chain_view, *find_profile("llvmpipe"), options}, exact_chain) == truth);
 }
 
+TEST_CASE("render_chain rejects a scene with lines") {
+    DrawList list = random_chain_list(42, {});
+    list.meshes[1].indices = {0, 0, 1};
+    list.meshes[1].primitive = Primitive::lines;
+    const RenderOptions options = chain_options();
+    CHECK_THROWS_WITH(render_chain({list, chain_view, *find_profile("ideal"), options}, exact_chain),
+                      "scene: primitives: expected triangles alone, found lines or points");
+}
+
 TEST_CASE("render_chain rejects a scene with a shadow light") {
     DrawList list = random_chain_list(41, {});
     list.light = ShadowLight{};

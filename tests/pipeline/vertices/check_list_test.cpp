@@ -70,7 +70,7 @@ TEST_CASE("a draw list is rejected with the name of its first wrong field and th
     CHECK(refused([](DrawList& l) { l.meshes[1].indices[7] = 31; }) ==
           "draw list: meshes[1].indices[7]: expected less than 8, found 31");
     CHECK(refused([](DrawList& l) { l.meshes[0].indices.pop_back(); }) ==
-          "draw list: meshes[0].indices: expected three per triangle, found 11");
+          "draw list: meshes[0].indices: expected three per primitive, found 11");
     CHECK(refused([](DrawList& l) { l.meshes[1].positions.clear(); }) ==
           "draw list: meshes[1].normals: expected none or 0, found 8");
     CHECK(refused([](DrawList& l) { l.meshes[1].normals.pop_back(); }) ==

@@ -68,6 +68,15 @@ struct Depths {
 
 }  // namespace
 
+TEST_CASE("lines and points have no other order and no diagonal") {
+    DrawList list = flat_grid(2);
+    list.meshes[0].indices = {0, 0, 1, 1, 1, 4};
+    list.meshes[0].primitive = Primitive::lines;
+    CHECK(rotate_vertices(list, 1).meshes == list.meshes);
+    CHECK(flip_diagonals(list).list.meshes == list.meshes);
+    CHECK(flip_diagonals(list).quads == 0);
+}
+
 TEST_CASE("rotating starts each triangle at another corner and changes nothing else") {
     const DrawList list = random_triangles(951, 10).list;
     for (const int k : {-1, 0, 1, 2, 3, 4}) {

@@ -14,7 +14,7 @@ using namespace strata::rasterizer;
 [[nodiscard]] bool same_words(const TriangleRecord& a, const TriangleRecord& b) {
     return a.vertex == b.vertex && a.primitive == b.primitive && a.material == b.material && a.box.x0 == b.box.x0 &&
            a.box.y0 == b.box.y0 && a.box.x1 == b.box.x1 && a.box.y1 == b.box.y1 && a.front_facing == b.front_facing &&
-           a.is_tiny == b.is_tiny && a.negative_w == b.negative_w && a.covered == b.covered;
+           a.is_tiny == b.is_tiny && a.special == b.special && a.covered == b.covered;
 }
 
 // For either winding: the edge value is positive, or 0 on a side that includes its ties.

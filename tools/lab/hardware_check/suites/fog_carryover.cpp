@@ -39,14 +39,14 @@ SuitePicture six_functions(const pipeline::DeviceProfile& profile) {
 using Points = std::vector<std::array<float, 2>>;
 using Triangles = std::vector<std::array<std::size_t, 3>>;
 
-struct Shape {
+struct CarriedShape {
     std::string_view name;
     Points points;
     Triangles triangles;
 };
 
 // In the rectangle from x = 8 to 312 and y = 0 to 64.
-std::vector<Shape> shapes() {
+std::vector<CarriedShape> shapes() {
     constexpr float left = 8, right = 312, bottom = 64, cx = 160, cy = 32, quarter = 76, eighth = 16;
     return {{"Tris",
              {{left, 0},
@@ -95,7 +95,7 @@ std::vector<Shape> shapes() {
 
 // Four rows of the shape, each with a square beside it that keeps the coordinate. It is so dense a fog that no colour
 // is seen.
-SuitePicture four_rows(const pipeline::DeviceProfile& profile, const Shape& shape) {
+SuitePicture four_rows(const pipeline::DeviceProfile& profile, const CarriedShape& shape) {
     constexpr float coordinate = 0.6f, side = 64, square_left = 448;
     pipeline::Surface surface{profile, {}};
     surface.clear_color(unpack(0xffaaaaaa));
@@ -121,7 +121,7 @@ Drawing draw_fog_carryover(std::string_view name, const pipeline::DeviceProfile&
     if (!take(name, "Carryover")) return unknown_name;
     for (const std::string_view other : {"Points", "Lines", "LineLoop", "LineStrip"})
         if (name == other) return {std::nullopt, "lines and points with fog are not drawn"};
-    for (const Shape& shape : shapes())
+    for (const CarriedShape& shape : shapes())
         if (name == shape.name) return {four_rows(profile, shape), {}};
     return unknown_name;
 }

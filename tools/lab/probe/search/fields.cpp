@@ -72,6 +72,8 @@ constexpr Unprobed unprobed[]{
     {"raster.perspective_coordinates", "no scene has a texture"},
     {"texture_filter", "no scene has a texture"},
     {"fog", "no scene has fog"},
+    {"raster.lines", "no scene has lines"},
+    {"raster.points", "no scene has points"},
     {"raster.sample_divisor", "no scene has several samples per pixel"},
     {"sample_positions", "no scene has several samples per pixel"},
     {"resolve", "no scene has several samples per pixel"},

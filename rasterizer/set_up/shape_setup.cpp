@@ -1,0 +1,115 @@
+// rasterizer/set_up/shape_setup.cpp - lines and points of setup.h: facing, clipping, and the record with its box of
+// pixels.
+//
+// Rule     A line or point faces front and is never culled; one that draws a part of a polygon has the polygon's facing
+//          and is culled with it. Polygon offset does not move it. A line is cut as a triangle's side is; a point
+//          outside a plane is dropped. A w that is negative in window positions drops it (assumed).
+// Source   rasterizer/reference/lines-and-points.md 1.
+// Tests    tests/rasterizer/set_up/shape_setup_test.cpp
+#include <algorithm>
+
+#include "rasterizer/coverage/line_coverage.h"
+#include "rasterizer/set_up/setup.h"
+
+namespace strata::rasterizer {
+
+// The two ends of a line, or a point twice.
+struct TriangleSetup::Ends {
+    std::array<std::uint32_t, 2> vertex;
+    std::array<const WindowCorner*, 2> corner;
+    VertexMarks marks;
+};
+
+// Empty if the polygon is culled. A polygon without area counts as counterclockwise (chip-geometry.md 5.2).
+std::optional<bool> TriangleSetup::polygon_faces_front(const SourceTriangle& source) const {
+    const auto& [a, b, c] = source.vertex;
+    const VertexMarks crossed = (marks_[a] | marks_[b] | marks_[c]) & marks_planes;
+    std::array<SubpixelPoint, 3> p{corners_[a].p, corners_[b].p, corners_[c].p};
+    if (crossed != 0) {
+        ClipPolygon cut = polygon(source);
+        clipper_.clip(cut, crossed);
+        if (cut.count < 3) return std::nullopt;
+        for (std::size_t i = 0; i < 3; ++i) {
+            WindowCorner corner;
+            static_cast<void>(project(cut.corner[i], cut.extra[i].data(), VertexOrigin::made_by_clip, corner));
+            p[i] = corner.p;
+        }
+    }
+    const std::int64_t area = Edge{p[0], p[1]}.at(p[2]),
+                       counterclockwise = state_.y_direction == YDirection::up ? -1 : 1;
+    const bool front = is_front(area == 0 ? counterclockwise : area, source.run->mirrored);
+    return !source.run->double_sided && is_culled(front) ? std::nullopt : std::optional{front};
+}
+
+TriangleSetup::Fate TriangleSetup::add_shape(const SourceTriangle& source, SetupChunk& out) const {
+    const Primitive primitive = source.run->primitive;
+    const bool is_of_polygon = primitive == Primitive::polygon_lines || primitive == Primitive::polygon_points;
+    const auto& [first, a, b] = source.vertex;
+    const VertexMarks all = marks_[a] | marks_[b] | (is_of_polygon ? marks_[first] : 0);
+    if ((all & (marks_input | marks_window)) != 0) return Fate::non_finite;
+    bool front = true;
+    if (is_of_polygon) {
+        if ((marks_[first] & marks_[a] & marks_[b] & marks_planes) != 0) return Fate::outside;
+        const std::optional<bool> facing = polygon_faces_front(source);
+        if (!facing) return Fate::culled;
+        front = *facing;
+    }
+    if (shape_of(primitive) == Shape::line) return add_line(source, front, out);
+    if ((marks_[b] & marks_planes) != 0) return Fate::outside;
+    return add_ends(source, {{b, b}, {&corners_[b], &corners_[b]}, marks_[b]}, front, out);
+}
+
+// A line is a polygon of two corners: clipping walks it there and back, and the first two corners of the result are the
+// ends of what is left.
+TriangleSetup::Fate TriangleSetup::add_line(const SourceTriangle& source, bool front, SetupChunk& out) const {
+    const std::uint32_t a = source.vertex[1], b = source.vertex[2];
+    const VertexMarks crossed = (marks_[a] | marks_[b]) & marks_planes;
+    if (crossed == 0)
+        return add_ends(source, {{a, b}, {&corners_[a], &corners_[b]}, marks_[a] | marks_[b]}, front, out);
+    if ((marks_[a] & marks_[b] & marks_planes) != 0) return Fate::outside;
+    SourceTriangle side = source;
+    side.vertex = {a, b, b};
+    ClipPolygon cut = polygon(side);
+    cut.count = 2;
+    clipper_.clip(cut, crossed);
+    if (cut.count < 3) return Fate::outside;
+    std::array<WindowCorner, 2> corner;
+    VertexMarks marks = 0;
+    for (std::size_t i = 0; i < 2; ++i)
+        marks |= project(cut.corner[i], cut.extra[i].data(),
+                         cut.is_new[i] ? VertexOrigin::made_by_clip : VertexOrigin::given, corner[i]);
+    const auto next = static_cast<std::uint32_t>(vertices_.size() + out.vertices.size());
+    const Fate fate = add_ends(source, {{next, next + 1}, {&corner[0], &corner[1]}, marks}, front, out);
+    out.counters.clipped += fate != Fate::outside;
+    if (fate != Fate::kept) return fate;
+    for (std::size_t i = 0; i < 2; ++i) {
+        out.vertices.push_back(cut.corner[i]);
+        out.corners.push_back(corner[i]);
+        out.extras.insert(out.extras.end(), cut.extra[i].data(), cut.extra[i].data() + extras_.stride);
+    }
+    return fate;
+}
+
+TriangleSetup::Fate TriangleSetup::add_ends(const SourceTriangle& source, const Ends& ends, bool front,
+                                            SetupChunk& out) const {
+    const auto& [a, b] = ends.corner;
+    if ((ends.marks & marks_window) != 0 || (ends.marks & (front ? marks_front : marks_back)) != 0)
+        return Fate::non_finite;
+    const Shape shape = shape_of(source.run->primitive);
+    const Rect all =
+        shape == Shape::line ? line_coverage(a->p, b->p, state_, rules_).box : point_box(b->p, state_, rules_);
+    if (all.area() == 0) return Fate::degenerate;
+    const Rect box = intersection(all, state_.viewport);
+    const std::array corners{a, a, b};
+    if (box.area() == 0 || negative_w(corners) != 0 || is_out_of_range(corners)) return Fate::outside;
+    out.triangles.push_back({.vertex = {ends.vertex[0], ends.vertex[0], ends.vertex[1]},
+                             .primitive = source.primitive,
+                             .material = source.run->material,
+                             .box = in_viewport(box, state_.viewport),
+                             .front_facing = front,
+                             .special = TriangleRecord::special_of(shape)});
+    if (state_.polygon_offset.enabled) out.offset_z.push_back({a->z, a->z, b->z});
+    return Fate::kept;
+}
+
+}  // namespace strata::rasterizer
