@@ -74,11 +74,10 @@ from their names alone, and compares every pixel outside the labels with capture
 modelled. Of {sum(s.pixels for s in suites):,} compared pixels {sum(s.off for s in suites):,} differ. {len(unknown)} further suites, with {sum(sum(s.counts) for s in unknown)} captures, show no modelled feature.""")
     yield plot_of(suites)
     yield ("table", HEAD, rows_of(suites), range(1, len(HEAD)))
-    yield ("text", """Differences are in codes of a colour channel or of the stored depth. *Within bound*: few pixels differ, by few codes, and the cause is known
-except for its last bits; the bounds are in [suites](suites), the subjects in [SUBJECTS.md](SUBJECTS.md). *Outside*: the w buffer with a slope or with float depth, the last bits of whose
-weights are not known. [open_questions.md](open_questions.md) lists what is not known, and what was tried.""")
-    yield ("text", """The captures are not in this repository. `tests/tools/lab/hardware_check/hardware_digests.txt` has a digest of each equal picture, which tests
-compare with the picture of the present profile.""")
+    yield ("text", """Differences are in codes of a colour channel or of the stored depth. *Within bound*: few pixels differ, by few codes, and only the last bits
+of the cause are unknown; bounds are in [suites](suites), subjects in [SUBJECTS.md](SUBJECTS.md). *Outside*: the w buffer with a slope or float depth.
+[open_questions.md](open_questions.md) lists what is unknown, and what was tried.""")
+    yield ("text", """The captures are not in this repository; `tests/tools/lab/hardware_check/hardware_digests.txt` has digests of the equal pictures for tests.""")
     yield ("heading", "The whole table")
     yield ("text", "    tools/lab/hardware_check/make_page.sh CAPTURES")
     yield ("text", """CAPTURES has the files SUITE/NAME.png of the archive, or some of them. The command writes this page, and `build/hardware_check/RESULTS.html` with

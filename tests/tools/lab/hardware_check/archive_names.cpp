@@ -69,7 +69,10 @@ void add_sample_suites(Archive& archive) {
     add(archive, Outcome::drawn, "3D_primitive", with(filled, {"", "-ls"}), 48);
     add(archive, Outcome::not_modelled, "3D_primitive", with(filled, {"-ps", "-ls-ps"}), 48);
     const Names others = with({"Points", "Lines", "LineLoop", "LineStrip"}, commands);
-    add(archive, Outcome::not_modelled, "3D_primitive", with(others, {"", "-ls", "-ps", "-ls-ps"}), 64);
+    add(archive, Outcome::drawn, "3D_primitive", with(others, {"", "-ps"}), 32);
+    add(archive, Outcome::drawn, "3D_primitive", with(with({"Points"}, commands), {"-ls", "-ls-ps"}), 8);
+    const Names lines = with({"Lines", "LineLoop", "LineStrip"}, commands);
+    add(archive, Outcome::not_modelled, "3D_primitive", with(lines, {"-ls", "-ls-ps"}), 24);
 }
 
 void add_depth_suites(Archive& archive) {
@@ -116,7 +119,7 @@ void add_geometry_suites(Archive& archive) {
     add(archive, Outcome::drawn, "Shade_model", with({"Prog"}, kinds), 24);
     add(archive, Outcome::drawn, "Shade_model", with({"Fixed", "FixedTex", "W_Fixed", "W_FixedTex", "ProgTex"}, kinds),
         120);
-    add(archive, Outcome::not_modelled, "Shade_model", with({"ProgLM"}, kinds), 24);
+    add(archive, Outcome::drawn, "Shade_model", with({"ProgLM"}, kinds), 24);
     const Names offsets{"0.000_0.000",   "0.531_0.531", "0.562_0.562",  "-0.531_-0.531",
                         "-0.438_-0.438", "1.000_1.000", "-1.000_-1.000"};
     add(archive, Outcome::drawn, "Viewport", with(offsets, {"-0.000_0.000", "-2.000_0.000"}), 14);
@@ -159,7 +162,7 @@ void add_range_suites(Archive& archive) {
     const Names floor = with(with(with(buffers, formats), {"FloorQuad_V0"}), settings);
     add(archive, Outcome::drawn, "W_buffering", with(floor, or_depth), 64);
     const Names lines = with(with(with(buffers, formats), {"LineStrip"}), offsets);
-    add(archive, Outcome::not_modelled, "W_buffering", with(lines, or_depth), 64);
+    add(archive, Outcome::drawn, "W_buffering", with(lines, or_depth), 64);
     add(archive, Outcome::drawn, "W_buffering",
         with({"WBuf24D_Riddick", "ZBuf24D_Trunc0", "ZBuf24D_TruncNeg"}, {"_V1_ZB0_ZS0", "_V1_ZB0_ZS0_ZB"}), 6);
     const Names floors{"-150-032", "-150-128", "-150-224"}, walls{"-159-000", "-261-000", "-363-000"};

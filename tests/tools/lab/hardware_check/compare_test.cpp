@@ -199,7 +199,7 @@ TEST_CASE("a capture of another size or format is rejected with the name of the 
 
 TEST_CASE("suites are listed once each in byte order and found by their full names only") {
     const std::span<const Suite> all = suites();
-    CHECK(all.size() == 44);
+    CHECK(all.size() == 48);
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (i > 0) CHECK(all[i - 1].name < all[i].name);
         CHECK(find_suite(all[i].name) == &all[i]);
@@ -222,14 +222,17 @@ TEST_CASE("a suite is marked with the kinds of constants that its captures can d
                                                     {"Depth_Clamp", 8},
                                                     {"Depth_buffer", 1 | 4},
                                                     {"Depth_buffer_fixed_function", 1 | 4},
+                                                    {"Edge_flag", 4},
                                                     {"Fog", 8},
                                                     {"Fog_gen", 8},
                                                     {"Fog_vsh", 8},
                                                     {"Lighting_normals", 4},
+                                                    {"Line_width", 4},
                                                     {"Material_alpha", 4},
                                                     {"Material_color_source", 8},
                                                     {"Pixel_shader", 2 | 8},
                                                     {"Shade_model", 4 | 8},
+                                                    {"Smoothing_control", 4},
                                                     {"Specular", 4},
                                                     {"Texture_perspective", 4 | 8},
                                                     {"Texture_shadow_comparator", 2 | 8},

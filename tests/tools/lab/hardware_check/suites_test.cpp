@@ -173,7 +173,7 @@ TEST_CASE("names that no test has are unknown and names that are not modelled gi
             const Drawing drawing = suite.draw(name, geforce3());
             CHECK((drawing.picture || !drawing.reason.empty()));
         }
-    const Drawing fixed = find_suite("Shade_model")->draw("ProgLM_Quad_Smooth_First", geforce3());
+    const Drawing fixed = find_suite("Shade_model")->draw("FixedLM_Quad_Smooth_First", geforce3());
     CHECK_FALSE(fixed.picture);
     CHECK(fixed.reason != unknown_name_reason);
 }

@@ -22,6 +22,7 @@ Drawing draw_depth_buffer(std::string_view name, const pipeline::DeviceProfile& 
 Drawing draw_depth_buffer_fixed_function(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_depth_clamp(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_depth_function(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_edge_flag(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_fog(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_fog_carryover(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_fog_coord_vec4(std::string_view name, const pipeline::DeviceProfile& profile);
@@ -32,14 +33,17 @@ Drawing draw_fog_param(std::string_view name, const pipeline::DeviceProfile& pro
 Drawing draw_fog_vsh(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_front_face(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_lighting_normals(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_line_width(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_material_alpha(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_material_color(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_material_color_source(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_pixel_shader(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_pixel_shader_with(std::string_view name, const pipeline::DeviceProfile& profile,
                                const std::string& textures);
+Drawing draw_point_size(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_set_vertex_data(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_shade_model(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_smoothing_control(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_specular(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_stencil(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_stencil_func(std::string_view name, const pipeline::DeviceProfile& profile);

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "tools/lab/hardware_check/drawing/names.h"
-#include "tools/lab/hardware_check/drawing/shapes.h"
+#include "tools/lab/hardware_check/drawing/splits.h"
 #include "tools/lab/hardware_check/drawing/suite.h"
 
 namespace strata::hardware_check {
@@ -21,7 +21,7 @@ Drawing draw_front_face(std::string_view name, const pipeline::DeviceProfile& pr
     constexpr std::string_view windings[] = {"CW", "CCW", "0x00", "0x63", "0", "63"};
     if (std::find(std::begin(windings), std::end(windings), winding) == std::end(windings)) return unknown_name;
     if (name != "F" && name != "B" && name != "FaB") return unknown_name;
-    if (as_lines) return {std::nullopt, "polygons drawn as lines are not described"};
+    if (as_lines) return {std::nullopt, "the lines of this suite are not explained"};
     // Anything except CCW leaves the previous direction: CW.
     pipeline::DrawState state;
     state.front_face = winding == "CCW" ? FrontFace::counter_clockwise : FrontFace::clockwise;
@@ -30,11 +30,12 @@ Drawing draw_front_face(std::string_view name, const pipeline::DeviceProfile& pr
     pipeline::Surface surface{profile, {}};
     surface.clear_color(unpack(0xff000000));
     constexpr Argb color = 0xffffffff;
-    TriangleSoup soup;
-    // Upper left, lower left, lower right, upper right: counterclockwise in the window.
-    add_quad(soup, {at(138, 44, color), at(138, 430, color), at(310, 430, color), at(310, 44, color)});
-    add_box(soup, {330, 44, 502, 430}, color);
-    surface.draw(state, std::move(soup));
+    // Upper left, lower left, lower right, upper right: counterclockwise in the window; then clockwise.
+    const std::vector<ClipVertex> corners{at(138, 44, color),  at(138, 430, color), at(310, 430, color),
+                                          at(310, 44, color),  at(330, 44, color),  at(502, 44, color),
+                                          at(502, 430, color), at(330, 430, color)};
+    SplitDraw draw = split_draw(Topology::quads, corners, PolygonMode::fill);
+    surface.draw(state, std::move(draw.soup), draw.primitive);
     return {SuitePicture{.reading = CaptureFormat::drawn, .image = surface.color(), .background = unpack(0xff000000)},
             {}};
 }

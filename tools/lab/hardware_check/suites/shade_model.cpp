@@ -1,12 +1,13 @@
-// Suite Shade_model: [W_]<Prog|ProgTex|Fixed|FixedTex>_<primitive>_<Smooth|Flat>_<First|Last>: how primitives are split
-// into triangles, and the provoking vertex of flat shading; lit by the fixed-function pipeline, textured, and with a
-// different w at each vertex. pipeline/reference/chip-fragment.md 3.3, rasterizer/reference/chip-geometry.md 5.8.
+// Suite Shade_model: [W_]<Prog|ProgLM|ProgTex|Fixed|FixedTex>_<primitive>_<Smooth|Flat>_<First|Last>: how primitives
+// are split into triangles, and the provoking vertex of flat shading; lit by the fixed-function pipeline, textured, and
+// with a different w at each vertex. pipeline/reference/chip-fragment.md 3.3,
+// rasterizer/reference/chip-geometry.md 5.8.
 #include <bit>
 #include <vector>
 
 #include "tools/lab/hardware_check/drawing/fixed_pipeline.h"
 #include "tools/lab/hardware_check/drawing/names.h"
-#include "tools/lab/hardware_check/drawing/shapes.h"
+#include "tools/lab/hardware_check/drawing/splits.h"
 #include "tools/lab/hardware_check/drawing/suite.h"
 #include "tools/lab/hardware_check/drawing/textured.h"
 
@@ -17,42 +18,30 @@ namespace {
 constexpr double left = -2.75, right = 2.75, top = 1.75, bottom = -1.75, depth = 0.1, eye_distance = 7;
 using Point = std::array<double, 2>;
 
-// Three vertices, and the provoking one under flat shading: [0] First, [1] Last.
-struct Triangle {
-    std::array<std::size_t, 3> corner;
-    std::array<std::size_t, 2> provoking;
-};
-
-// A primitive: its points in submission order, and the triangles into which the chip splits it.
 struct ShadedPrimitive {
     std::string_view name;
-    std::vector<Point> points;
-    std::vector<Triangle> triangles;
+    Topology topology;
+    std::vector<Point> points;                  // in submission order
     std::vector<std::array<float, 2>> texture;  // s, t of the points
 };
 
-// The triangles (0, k, k+1) of a fan or polygon. A flat polygon has vertex 0's colour in both modes; a fan's triangle
-// has k's (First) or k+1's (Last).
-std::vector<Triangle> fan(std::size_t vertices, bool is_polygon) {
-    std::vector<Triangle> all;
-    for (std::size_t k = 1; k + 1 < vertices; ++k)
-        all.push_back({{0, k, k + 1}, is_polygon ? std::array<std::size_t, 2>{0, 0} : std::array{k, k + 1}});
-    return all;
+// The vertex whose colour a flat triangle has: [0] First, [1] Last. Quads and quad strips have that of their last
+// vertex in both modes, polygons that of vertex 0.
+std::array<std::uint32_t, 2> provoking_vertices(Topology topology, std::uint32_t triangle) {
+    switch (topology) {
+        case Topology::triangle_strip: return {triangle, triangle + 2};
+        case Topology::triangle_fan: return {triangle + 1, triangle + 2};
+        case Topology::quads: return {triangle / 2 * 4 + 3, triangle / 2 * 4 + 3};
+        case Topology::quad_strip: return {triangle / 2 * 2 + 3, triangle / 2 * 2 + 3};
+        case Topology::polygon: return {0, 0};
+        default: return {3 * triangle, 3 * triangle + 2};
+    }
 }
 
-// Triangle i of a strip is (i, i+1, i+2); odd ones exchange the first two, so that all have the same facing. Flat
-// colour: vertex i (First) or i+2 (Last).
-std::vector<Triangle> strip(std::size_t vertices) {
-    std::vector<Triangle> all;
-    for (std::size_t i = 0; i + 2 < vertices; ++i)
-        all.push_back({i % 2 == 0 ? std::array{i, i + 1, i + 2} : std::array{i + 1, i, i + 2}, {i, i + 2}});
-    return all;
-}
-
-// The table of pipeline/reference/chip-fragment.md 3.3. Quads and quad strips have the colour of their last vertex in
-// both modes.
+// The table of pipeline/reference/chip-fragment.md 3.3.
 std::vector<ShadedPrimitive> primitives() {
     return {{"Tri",
+             Topology::triangles,
              {{left, top},
               {0, top},
               {left, 0},
@@ -62,17 +51,17 @@ std::vector<ShadedPrimitive> primitives() {
               {-0.4, bottom},
               {-1.4, -1.4},
               {0, 0}},
-             {{{0, 1, 2}, {0, 2}}, {{3, 4, 5}, {3, 5}}, {{6, 7, 8}, {6, 8}}},
              {{0, 0}, {1, 0}, {0, 1}, {1, 0}, {.1f, 1}, {.25f, .5f}, {.5f, 1}, {.2f, .5f}, {1, 0}}},
             {"TriStrip",
+             Topology::triangle_strip,
              {{left, 0}, {-2.25, top}, {-2, bottom}, {-1.3, 1.6}, {0, -1.5}, {0.4, 1}, {1.4, -0.6}, {right, top}},
-             strip(8),
              {{0, 0}, {0, 1}, {0, 0}, {1.15f, .25f}, {1.3f, .75f}, {1.7f, .33f}, {.7f, .7f}, {.5f, .5f}}},
             {"TriFan",
+             Topology::triangle_fan,
              {{0, -0.75}, {-2.25, bottom}, {-2, top}, {-0.6, 0.65}, {0, 1.5}, {0.4, 1}, {2.4, 0.6}, {right, bottom}},
-             fan(8, false),
              {{1, 1}, {0, 0}, {0, 1}, {1.15f, .25f}, {1.3f, .75f}, {1.7f, .33f}, {.7f, .7f}, {.5f, .5f}}},
             {"Quad",
+             Topology::quads,
              {{left, top},
               {-0.4, top},
               {-0.4, bottom},
@@ -81,15 +70,14 @@ std::vector<ShadedPrimitive> primitives() {
               {right, top},
               {right, bottom},
               {0, bottom}},
-             {{{0, 1, 2}, {3, 3}}, {{0, 2, 3}, {3, 3}}, {{4, 5, 6}, {7, 7}}, {{4, 6, 7}, {7, 7}}},
              {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}, {1, 0}, {1, 1}, {0, 1}}},
             {"QuadStrip",
+             Topology::quad_strip,
              {{left, bottom}, {left, top}, {0, -1.35}, {0, 1}, {right, bottom}, {right, top}},
-             {{{0, 1, 2}, {3, 3}}, {{2, 1, 3}, {3, 3}}, {{2, 3, 4}, {5, 5}}, {{4, 3, 5}, {5, 5}}},
              {{.33f, .33f}, {1, 1}, {.7f, .1f}, {0, .9f}, {.33f, .33f}, {0, .7f}}},
             {"Poly",
+             Topology::polygon,
              {{left, bottom}, {-1.4, 1.1}, {-0.3, top}, {2, 0.3}, {right, -1.5}},
-             fan(5, true),
              {{.33f, .33f}, {.7f, .1f}, {.1f, .7f}, {0, .9f}, {.7f, .7f}}}};
 }
 
@@ -99,7 +87,7 @@ constexpr Argb vertex_colors[] = {0xff0000ff, 0xff00ff00, 0xffff0000, 0xffcccccc
 
 // The settings in a name other than the primitive.
 struct ShadedCapture {
-    bool is_lit = false, is_textured = false, has_own_w = false, flat = false;
+    bool is_lit = false, as_lines = false, is_textured = false, has_own_w = false, flat = false;
     std::size_t provoking = 0;  // 0 First, 1 Last
 };
 
@@ -156,17 +144,19 @@ ClipVertex window_vertex(const ShadedPrimitive& primitive, std::size_t k, const 
     return v;
 }
 
-TriangleSoup shaded(const ShadedPrimitive& primitive, const ShadedCapture& s) {
-    TriangleSoup soup;
-    for (const Triangle& t : primitive.triangles) {
-        const auto vertex = [&](std::size_t k) {
-            ClipVertex v = window_vertex(primitive, t.corner[k], s);
-            if (!s.is_textured) v.front = v.back = color_of(s.flat ? t.provoking[s.provoking] : t.corner[k], s.is_lit);
-            return v;
-        };
-        add_triangle(soup, vertex(0), vertex(1), vertex(2));
-    }
-    return soup;
+SplitDraw shaded(const ShadedPrimitive& primitive, const ShadedCapture& s) {
+    std::vector<ClipVertex> vertices;
+    std::vector<OutlinedTriangle> triangles =
+        split(primitive.topology, static_cast<std::uint32_t>(primitive.points.size()));
+    for (std::uint32_t i = 0; i < triangles.size(); ++i)
+        for (std::uint32_t& corner : triangles[i].corner) {
+            ClipVertex v = window_vertex(primitive, corner, s);
+            const std::uint32_t provoking = provoking_vertices(primitive.topology, i)[s.provoking];
+            if (!s.is_textured) v.front = v.back = color_of(s.flat ? provoking : corner, s.is_lit);
+            corner = static_cast<std::uint32_t>(vertices.size());
+            vertices.push_back(v);
+        }
+    return split_draw(triangles, vertices, s.as_lines ? PolygonMode::line : PolygonMode::fill);
 }
 
 // Flat pictures are equal. Smooth ones differ in at most one pixel, by one unit, where 256 times a weight is close to
@@ -182,6 +172,7 @@ bool take_shading(std::string_view& name, ShadedCapture& s) {
     s.has_own_w = take(name, "W_");
     s.is_lit = take(name, "Fixed");
     if (!s.is_lit && (s.has_own_w || !take(name, "Prog"))) return false;
+    s.as_lines = !s.is_lit && take(name, "LM");
     s.is_textured = take(name, "Tex");
     return take(name, "_");
 }
@@ -189,7 +180,7 @@ bool take_shading(std::string_view& name, ShadedCapture& s) {
 }  // namespace
 
 Drawing draw_shade_model(std::string_view name, const pipeline::DeviceProfile& profile) {
-    for (const std::string_view prefix : {"ProgLM_", "FixedLM_", "W_Prog"})
+    for (const std::string_view prefix : {"FixedLM_", "W_Prog"})
         if (name.starts_with(prefix)) return {std::nullopt, "pictures of this kind are not described"};
     ShadedCapture s;
     if (!take_shading(name, s)) return unknown_name;
@@ -202,10 +193,11 @@ Drawing draw_shade_model(std::string_view name, const pipeline::DeviceProfile& p
         pipeline::Surface surface{profile, {}};
         surface.clear_color(unpack(0xff2c302e));
         const pipeline::Texture texture = checker(texels, 8, 0xffc0c020, 0xff700000);
+        SplitDraw draw = shaded(primitive, s);
         surface.draw({.cull = rasterizer::CullFace::back,
                       .front_face = rasterizer::FrontFace::clockwise,
                       .texture = s.is_textured ? &texture : nullptr},
-                     shaded(primitive, s));
+                     std::move(draw.soup), draw.primitive);
         return {SuitePicture{.image = surface.color(), .bound = bound_of(s)}, {}};
     }
     return unknown_name;

@@ -5,6 +5,7 @@
 
 #include "tools/lab/hardware_check/drawing/fixed_pipeline.h"
 #include "tools/lab/hardware_check/drawing/names.h"
+#include "tools/lab/hardware_check/drawing/splits.h"
 #include "tools/lab/hardware_check/drawing/suite.h"
 #include "tools/lab/hardware_check/drawing/textured.h"
 
@@ -21,25 +22,31 @@ struct ColoredPoint {
 
 struct PointPrimitive {
     std::string_view name;
+    Topology topology;
     std::vector<ColoredPoint> points;
-    std::vector<std::array<std::size_t, 3>> triangles;
 };
 
-std::vector<std::array<std::size_t, 3>> fan(std::size_t points) {
-    std::vector<std::array<std::size_t, 3>> all;
-    for (std::size_t k = 1; k + 1 < points; ++k) all.push_back({0, k, k + 1});
-    return all;
-}
-
-std::vector<std::array<std::size_t, 3>> strip(std::size_t points) {
-    std::vector<std::array<std::size_t, 3>> all;
-    for (std::size_t k = 0; k + 2 < points; ++k)
-        all.push_back(k % 2 == 0 ? std::array{k, k + 1, k + 2} : std::array{k + 1, k, k + 2});
-    return all;
-}
+// Six lines; points, strips and loops have the same vertices.
+const std::vector<ColoredPoint> line_ends{{left, top, front, {.75f, .75f, .75f}},
+                                          {right, top, front, {1, 1, 1}},
+                                          {-2, 1, front, {1, 0, 0}},
+                                          {2, 0, back, {1, 0, 0}},
+                                          {1.5, 0.5, back, {0, 1, 0}},
+                                          {-1.5, 0.75, back, {0, 1, 0}},
+                                          {right, 0.25, front, {1, 1, 1}},
+                                          {1.75, 1.25, front, {.15f, .15f, .15f}},
+                                          {left, 1, front, {.25f, .25f, 1}},
+                                          {left, -1, front, {.65f, .65f, 1}},
+                                          {left, bottom, back, {0, 1, 1}},
+                                          {right, bottom, back, {.5f, .5f, 1}}};
 
 std::vector<PointPrimitive> primitives() {
-    return {{"Triangles",
+    return {{"Points", Topology::points, line_ends},
+            {"Lines", Topology::lines, line_ends},
+            {"LineLoop", Topology::line_loop, line_ends},
+            {"LineStrip", Topology::line_strip, line_ends},
+            {"Triangles",
+             Topology::triangles,
              {{left, top, front, {.25f, .25f, .25f}},
               {0, top, front, {.55f, .55f, .55f}},
               {left, 0, front, {.75f, .75f, .75f}},
@@ -48,9 +55,9 @@ std::vector<PointPrimitive> primitives() {
               {0.25, 0, front, {.1f, .25f, .9f}},
               {-0.4, bottom, back, {.8f, .25f, .9f}},
               {-1.4, -1.4, back, {.1f, .85f, .9f}},
-              {0, 0, back, {.85f, .95f, .1f}}},
-             {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}},
+              {0, 0, back, {.85f, .95f, .1f}}}},
             {"TriStrip",
+             Topology::triangle_strip,
              {{left, 0, front, {1, 0, 0}},
               {-2.25, top, front, {0, 1, 0}},
               {-2, bottom, front, {0, 0, 1}},
@@ -58,9 +65,9 @@ std::vector<PointPrimitive> primitives() {
               {0, -1.5, 1.3, {.75f, 0, .25f}},
               {0.4, 1, 1.7, {.33f, .33f, .33f}},
               {1.4, -0.6, back, {.7f, .7f, .7f}},
-              {right, top, back, {.5f, .5f, .6f}}},
-             strip(8)},
+              {right, top, back, {.5f, .5f, .6f}}}},
             {"TriFan",
+             Topology::triangle_fan,
              {{0, -0.75, front, {1, 1, 1}},
               {-2.25, bottom, front, {0, 0, 1}},
               {-2, top, front, {0, 1, 0}},
@@ -68,9 +75,9 @@ std::vector<PointPrimitive> primitives() {
               {0, 1.5, 1.3, {.75f, 0, .25f}},
               {0.4, 1, 1.7, {.33f, .33f, .33f}},
               {2.4, 0.6, back, {.7f, .7f, .7f}},
-              {right, bottom, back, {.5f, .5f, .6f}}},
-             fan(8)},
+              {right, bottom, back, {.5f, .5f, .6f}}}},
             {"Quads",
+             Topology::quads,
              {{left, top, front, {1, 1, 1}},
               {-0.6, 1.6, 1.7, {.5f, .5f, .6f}},
               {-1.35, -0.6, 1.7, {.7f, .7f, .7f}},
@@ -82,41 +89,40 @@ std::vector<PointPrimitive> primitives() {
               {-1.25, 1.3, back, {.25f, .25f, .25f}},
               {0.3, 1.25, back, {.1f, .3f, .1f}},
               {2.62, -0.03, back, {.65f, .65f, .65f}},
-              {-1, -1, back, {.45f, .45f, .45f}}},
-             {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}, {8, 9, 10}, {8, 10, 11}}},
+              {-1, -1, back, {.45f, .45f, .45f}}}},
             {"QuadStrip",
+             Topology::quad_strip,
              {{left, bottom, front, {.33f, .33f, .33f}},
               {left, top, front, {1, 1, 1}},
               {0, -1.35, front, {.7f, .1f, 0}},
               {0, 1, front, {0, .9f, .2f}},
               {right, bottom, front, {.33f, .33f, .33f}},
-              {right, top, front, {0, .7f, .9f}}},
-             {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}}},
+              {right, top, front, {0, .7f, .9f}}}},
             {"Polygon",
+             Topology::polygon,
              {{left, bottom, front, {.33f, .33f, .33f}},
               {-1.4, 1.1, front, {.7f, .1f, 0}},
               {-0.3, top, front, {.1f, .7f, .5f}},
               {2, 0.3, front, {0, .9f, .2f}},
-              {right, -1.5, front, {.7f, .7f, .7f}}},
-             fan(5)}};
+              {right, -1.5, front, {.7f, .7f, .7f}}}}};
 }
 
-// The primitive at the samples that are `shift` pixels to the left and above the pixels' centres.
+// The primitive at the samples that are `shift` pixels to the left and above the pixels' centres. The test's lines are
+// thin unless they are smooth.
 pipeline::Image at_samples(const PointPrimitive& primitive, const pipeline::DeviceProfile& profile, float shift) {
     constexpr double units = 65535;
-    const auto vertex = [&](std::size_t k) {
-        const ColoredPoint& p = primitive.points[k];
-        ClipVertex v = project(p.x, p.y, p.z, units, {p.color[0], p.color[1], p.color[2], 1});
+    std::vector<ClipVertex> vertices;
+    for (const ColoredPoint& p : primitive.points) {
+        ClipVertex& v = vertices.emplace_back(project(p.x, p.y, p.z, units, {p.color[0], p.color[1], p.color[2], 1}));
         v.x += viewport_offset + shift;
         v.y += viewport_offset + shift;
-        return v;
-    };
-    TriangleSoup soup;
-    for (const auto& [a, b, c] : primitive.triangles) add_triangle(soup, vertex(a), vertex(b), vertex(c));
+    }
+    SplitDraw draw = split_draw(primitive.topology, vertices, PolygonMode::fill);
     pipeline::Surface surface{profile, {.depth = pipeline::DepthFormat::d16}};
     surface.clear_color(unpack(0xff303030));
     surface.clear_depth(0xffff);
-    surface.draw({.depth = {.enabled = true}}, std::move(soup));
+    surface.draw({.depth = {.enabled = true}, .line_style = rasterizer::LineStyle::thin}, std::move(draw.soup),
+                 draw.primitive);
     return surface.color();
 }
 
@@ -149,10 +155,13 @@ Drawing draw_three_d_primitive(std::string_view name, const pipeline::DeviceProf
     const bool smooth_polygons = take_last(name, "-ps"), smooth_lines = take_last(name, "-ls");
     for (const std::string_view command : {"-inlinebuf", "-inlinearrays", "-inlineelements"})
         if (take_last(name, command)) break;
-    for (const std::string_view other : {"Points", "Lines", "LineLoop", "LineStrip"})
-        if (name == other) return {std::nullopt, "lines and points are not modelled"};
     for (const PointPrimitive& primitive : primitives()) {
         if (primitive.name != name) continue;
+        if (primitive.topology <= Topology::line_strip) {
+            if (smooth_lines && primitive.topology != Topology::points)
+                return {std::nullopt, "smooth lines are shown over what an older frame left"};
+            return {SuitePicture{.image = at_samples(primitive, profile, 0)}, {}};
+        }
         if (smooth_polygons) return {std::nullopt, "the coverage of smooth polygons is not modelled"};
         // A pixel where 256 times a weight is close to an integer differs by one unit, as in Shade_model.
         constexpr Bound near_integer{2, 1};

@@ -5,7 +5,7 @@
 #include "tools/lab/hardware_check/drawing/fixed_pipeline.h"
 #include "tools/lab/hardware_check/drawing/host_matrices.h"
 #include "tools/lab/hardware_check/drawing/names.h"
-#include "tools/lab/hardware_check/drawing/shapes.h"
+#include "tools/lab/hardware_check/drawing/splits.h"
 #include "tools/lab/hardware_check/drawing/suite.h"
 #include "tools/lab/hardware_check/drawing/textured.h"
 
@@ -185,7 +185,22 @@ TriangleSoup fixed_floor(const BufferSetting& s) {
     return soup;
 }
 
-const Drawing no_lines{std::nullopt, "lines are not modelled"};
+// Drawn by the program alone.
+TriangleSoup line_strip(rasterizer::Primitive& primitive) {
+    constexpr float far_w = 325.8057861328125f, near_w = 58.379993438720703f;
+    const auto vertex = [](float x, float y, float z, float w, std::array<float, 2> texture) {
+        ClipVertex v = at(x, y, z, {1, 1, 1, 1}, w);
+        v.texcoord = texture;
+        return v;
+    };
+    SplitDraw draw =
+        split_draw(Topology::line_strip,
+                   {vertex(321, 0.5f, 16777210, near_w, {0, 0}), vertex(159.5f, 0.5f, 16777210, far_w, {1, 0}),
+                    vertex(159.5f, 448.5f, 16572698, near_w, {1, 1}), vertex(321, 448.5f, 16572698, far_w, {0, 1})},
+                   PolygonMode::fill);
+    primitive = draw.primitive;
+    return std::move(draw.soup);
+}
 
 const Drawing unknown_quad{std::nullopt,
                            "which quad gives the w slope of this shape is not known (chip-float-depth.md 4.5)"};
@@ -193,6 +208,7 @@ const Drawing unknown_quad{std::nullopt,
 // Undetermined: the reciprocal of one sum, the slope of slivers, weights where w varies, and the last bits of a w slope
 // (rasterizer/reference/chip-float-depth.md 1.2, 2.3, 4.4, 4.5).
 Bound bound_of(const BufferSetting& s) {
+    if (s.shape == "LineStrip") return s.is_w && s.is_float && !s.is_16 ? Bound{8, 1} : Bound{};
     if (s.is_w) return {250, s.has_slope ? 2u : 1u};
     // One triangle of the floor with the fixed-function pipeline: the last bit of its reciprocals.
     if (!s.by_program && !s.is_16) return {44, 1};
@@ -202,14 +218,15 @@ Bound bound_of(const BufferSetting& s) {
 
 // Every fragment passes, so the picture shows the texture, and a red line at the beginning of its own clip. The test
 // drew yellow lines over it, from its text to the pixels whose depths the text states.
-SuitePicture color_picture(const pipeline::DeviceProfile& profile, const BufferSetting& s, TriangleSoup soup) {
+SuitePicture color_picture(const pipeline::DeviceProfile& profile, const BufferSetting& s, TriangleSoup soup,
+                           rasterizer::Primitive primitive) {
     pipeline::Texture texture = checker(256, 8, 0xff00ffff, 0xff000000);
     texture.target = pipeline::TextureTarget::two_d;
     texture.wrap_s = texture.wrap_t = pipeline::TextureWrap::repeat;
     pipeline::Surface surface{profile, {}};
     surface.clear_color(unpack(0xff251135));
     const rasterizer::Rect clip{s.left, s.top, picture_width, picture_height};
-    surface.draw({.window_clip = clip, .depth_clamp = true, .texture = &texture}, std::move(soup));
+    surface.draw({.window_clip = clip, .depth_clamp = true, .texture = &texture}, std::move(soup), primitive);
     const auto left = static_cast<float>(s.left), top = static_cast<float>(s.top);
     constexpr Argb red = 0xffff0000;
     if (s.top != default_top) surface.draw({}, box({left, top, picture_width, top + 1}, red));
@@ -223,11 +240,12 @@ SuitePicture color_picture(const pipeline::DeviceProfile& profile, const BufferS
 Drawing draw_w_buffering(std::string_view name, const pipeline::DeviceProfile& profile) {
     const auto s = parse_buffer_setting(name);
     if (!s) return unknown_name;
-    if (s->shape == "LineStrip") return no_lines;
-    auto soup = shape_of(*s);
-    if (!soup) return unknown_name;
+    auto primitive = rasterizer::Primitive::triangles;
+    const bool is_strip = s->shape == "LineStrip";
+    auto soup = is_strip ? line_strip(primitive) : shape_of(*s);
+    if (!soup || (is_strip && !s->by_program)) return unknown_name;
     if (!s->by_program) soup = fixed_floor(*s);
-    if (!s->shows_depth) return {color_picture(profile, *s, std::move(*soup)), {}};
+    if (!s->shows_depth) return {color_picture(profile, *s, std::move(*soup), primitive), {}};
     const bool is_sliver = s->shape == "TriH" || s->shape == "TriV" || s->shape == "ClipF";
     if (s->is_w && s->has_slope && is_sliver) return unknown_quad;
 
@@ -244,7 +262,7 @@ Drawing draw_w_buffering(std::string_view name, const pipeline::DeviceProfile& p
                            .units = s->has_bias ? 16.0f : 0.0f},
     };
     if (s->is_w) state.depth_path = DepthPath::w_buffer;
-    surface.draw(state, std::move(*soup));
+    surface.draw(state, std::move(*soup), primitive);
     // The stencil is cleared to 0.
     return {SuitePicture{.reading = s->is_16 ? CaptureFormat::depth16 : CaptureFormat::depth24,
                          .image = surface.depth(),

@@ -1,10 +1,11 @@
 // Suite ZPass_pixel_count: ZPass, ZPassPointSize[VS]-0x<size>, ZPassLineWidth-0x<width>, all [_ZB], sizes in 1/8 pixel.
 // The pixels that the chip's occlusion query counts. pipeline/reference/chip-fragment.md 6.
 #include <algorithm>
+#include <vector>
 
 #include "tools/lab/hardware_check/drawing/fixed_pipeline.h"
 #include "tools/lab/hardware_check/drawing/names.h"
-#include "tools/lab/hardware_check/drawing/shapes.h"
+#include "tools/lab/hardware_check/drawing/splits.h"
 #include "tools/lab/hardware_check/drawing/suite.h"
 
 namespace strata::hardware_check {
@@ -35,42 +36,43 @@ std::vector<std::uint64_t> draw_squares(pipeline::Surface& surface) {
 
 constexpr Argb white = 0xffffffff;
 
-// A square of `side` pixels around (x, y): pixel centres in [c - side / 2, c + side / 2).
-std::uint64_t draw_point(pipeline::Surface& surface, float x, float y, float side, float z) {
-    const float h = side / 2;
-    return surface.draw(counted, box({x - h, y - h, x + h, y + h}, white, z));
+std::uint64_t draw_shape(pipeline::Surface& surface, Topology topology, const std::vector<ClipVertex>& vertices,
+                         float size_px) {
+    pipeline::DrawState state = counted;
+    state.point_size_px = state.line_width_px = size_px;
+    SplitDraw draw = split_draw(topology, vertices, PolygonMode::fill);
+    return surface.draw(state, std::move(draw.soup), draw.primitive);
 }
 
-// The fixed-function pipeline counts whole pixels, at least one.
+// The registers keep 1 pixel if a value does not fit.
+float size_of(std::uint32_t value) { return value < 512 ? static_cast<float>(value) / 8.0f : 1.0f; }
+
+// Points of the fixed-function pipeline at the centres of two squares; the first is behind its square.
 std::uint64_t draw_fixed_points(pipeline::Surface& surface, std::uint32_t size) {
-    const float side = static_cast<float>(std::max(1u, size >> 3));
     const float near = static_cast<float>(window_z(0, units)), behind = static_cast<float>(window_z(1.5, units));
     std::uint64_t count = draw_square(surface, 32, 240, 0, 0xff773377);
-    count += draw_point(surface, 96.5f, 304.5f, side, behind);
-    return count + draw_point(surface, 288.5f, 304.5f, side, near);
+    const auto point = [&](float x, float z) {
+        return at(x + viewport_offset, 304 + viewport_offset, z, to_float(white));
+    };
+    count += draw_shape(surface, Topology::points, {point(96, behind)}, size_of(size));
+    return count + draw_shape(surface, Topology::points, {point(288, near)}, size_of(size));
 }
 
-// A vertex program's size is not rounded, except for 0 and the end of the range.
 std::uint64_t draw_program_points(pipeline::Surface& surface, std::uint32_t size) {
-    // 0 draws one pixel at the point itself, 504 to 511 a square of side 64, and 512 and above wrap around to one pixel
-    // (pipeline/reference/chip-fragment.md 6.1).
-    const bool is_zero = size == 0, wraps = size >= 512;
-    const float side = is_zero || wraps ? 1.0f : size >= 504 ? 64.0f : static_cast<float>(size) / 8.0f;
-    const float shift = is_zero ? 0.5f : 0.0f;
     std::uint64_t count = surface.draw(counted, box({32, 240, 160, 368}, 0xff773377, 0));
-    count += draw_point(surface, 96 + shift, 304 + shift, side, 1.5f);
-    return count + draw_point(surface, 288 + shift, 304 + shift, side, 0);
+    count += draw_shape(surface, Topology::points, {at(96, 304, 1.5f, to_float(white))}, size_of(size));
+    return count + draw_shape(surface, Topology::points, {at(288, 304, 0, to_float(white))}, size_of(size));
 }
 
-// A horizontal line of 64 pixels: rows starting at 304 - width / 2.
+// Horizontal lines of 64 pixels through the middle of the squares.
 std::uint64_t draw_lines(pipeline::Surface& surface, std::uint32_t width) {
     std::uint64_t count = draw_square(surface, 32, 240, 0, 0xff773377);
-    // The register value 0 draws no line.
-    if (width == 0) return count;
-    const std::uint32_t rows = std::max(1u, width >> 3);
-    const float y = 304.0f - static_cast<float>(rows >> 1), z = static_cast<float>(window_z(1.5, units));
-    for (const float x : {33.0f, 289.0f})
-        count += surface.draw(counted, box({x, y, x + 64, y + static_cast<float>(rows)}, white, z));
+    const float z = static_cast<float>(window_z(1.5, units)), y = 304 + viewport_offset;
+    for (const float x : {32.0f, 288.0f}) {
+        const float left = x + viewport_offset;
+        count += draw_shape(surface, Topology::lines,
+                            {at(left, y, z, to_float(white)), at(left + 64, y, z, to_float(white))}, size_of(width));
+    }
     return count;
 }
 
