@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pipeline/vertices/draw_list.h"
+#include "pipeline/vertices/polygon_mode.h"
 
 namespace strata::scenes {
 
@@ -64,12 +65,13 @@ struct SceneOptions {
     bool light = true;                   // false: all materials are unlit (--no-light)
     std::vector<MaterialAlpha> alpha{};  // --alpha NAME=A; applies to every material of that name
     bool recentre = false;               // moves the middle of the bounds to the origin (far_places.h)
+    pipeline::PolygonMode polygon_mode = pipeline::PolygonMode::fill;
 };
 
 // `spec` is a path to a .gltf, .glb, .obj, .ply, .stl or .off file or to a pack, "-" for a glTF file from standard
 // input (which is read once), or a procedural scene: "teapot", "volume-beam:slices=N[,order=far|near]",
-// "random:seed=S,triangles=N", "shadow-demo", "showroom", "hard:case=NAME". Throws InputError for any other or
-// malformed text.
+// "random:seed=S,triangles=N", "shadow-demo", "showroom", "wireframe:tessellation=N", "hard:case=NAME". Throws
+// InputError for any other or malformed text.
 [[nodiscard]] Scene load_scene(const std::string& spec, const SceneOptions& options);
 
 // The two parts of load_scene, and the test that selects one. load_gltf reads every path as a glTF file, whatever its

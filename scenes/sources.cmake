@@ -75,7 +75,8 @@ set(strata_scenes_sources
   procedural/shadow_demo.cpp
   procedural/showroom.cpp
   procedural/teapot.cpp
-  procedural/volume_beam.cpp)
+  procedural/volume_beam.cpp
+  procedural/wireframe.cpp)
 # Those of them that need a disk, the image module or packs: the page in a browser (tools/web) has the others.
 set(strata_scenes_with_files
   exr/openexr.cpp

@@ -40,8 +40,32 @@ Indices drawing_order(const PrimitiveSource& s, std::size_t vertex_count) {
     return order;
 }
 
+// Three indices per line or point (rasterizer/rules/primitive.h).
+Indices lines_and_points(const Indices& order, int mode, const PrimitiveSource& s) {
+    Indices all;
+    all.reserve(3 * order.size());
+    if (mode == TINYGLTF_MODE_POINTS) {
+        for (const std::uint32_t vertex : order) all.insert(all.end(), {vertex, vertex, vertex});
+        return all;
+    }
+    const bool is_list = mode == TINYGLTF_MODE_LINE;
+    if (order.size() < 2 || (is_list && order.size() % 2 != 0))
+        s.warnings.add(s.location.pointer, "vertices that make no whole line are ignored");
+    for (std::size_t i = 0; i + 1 < order.size(); i += is_list ? 2 : 1)
+        all.insert(all.end(), {order[i], order[i], order[i + 1]});
+    if (mode == TINYGLTF_MODE_LINE_LOOP && order.size() > 1)
+        all.insert(all.end(), {order.back(), order.back(), order.front()});
+    return all;
+}
+
+pipeline::Primitive primitive_of(int mode) {
+    if (mode == TINYGLTF_MODE_POINTS) return pipeline::Primitive::points;
+    return mode < TINYGLTF_MODE_TRIANGLES ? pipeline::Primitive::lines : pipeline::Primitive::triangles;
+}
+
 // Three corners per triangle. Remaining vertices are ignored, as glTF requires.
 Indices corners(const Indices& order, int mode, const PrimitiveSource& s) {
+    if (primitive_of(mode) != pipeline::Primitive::triangles) return lines_and_points(order, mode, s);
     const std::size_t n = order.size();
     const bool is_list = mode == TINYGLTF_MODE_TRIANGLES;
     if (n < 3 || (is_list && n % 3 != 0))
@@ -140,23 +164,21 @@ void skin(pipeline::Mesh& mesh, const PrimitiveSource& s, const Indices& vertice
 
 std::optional<pipeline::Mesh> load_primitive(const PrimitiveSource& s) {
     const int mode = s.primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : s.primitive.mode;
-    if (mode < TINYGLTF_MODE_TRIANGLES) {
-        s.warnings.add(s.location.pointer, "points and lines are not drawn");
-        return std::nullopt;
-    }
     const auto& attributes = s.primitive.attributes;
     if (!attributes.contains("POSITION")) return std::nullopt;  // check.h has warned
     const AccessorReader& positions = s.accessors[attributes.at("POSITION")];
     Indices all = corners(drawing_order(s, positions.count()), mode, s);
     if (all.empty()) return std::nullopt;
-    if (s.pose.is_mirrored && !s.joints.empty())
+    if (s.pose.is_mirrored && !s.joints.empty() && primitive_of(mode) == pipeline::Primitive::triangles)
         for (std::size_t i = 0; i < all.size(); i += 3) std::swap(all[i + 1], all[i + 2]);
 
-    // glTF 2.0, 3.7.2.1: without normals a lit surface is flat. An unlit one needs none and keeps its shared
-    // vertices.
-    const bool is_flat = !s.material.is_unlit && !attributes.contains("NORMAL");
+    // glTF 2.0, 3.7.2.1: without normals a lit surface is flat, and lines and points are unlit. An unlit mesh needs
+    // none and keeps its shared vertices.
+    const bool has_normals = attributes.contains("NORMAL");
+    const bool is_flat = !s.material.is_unlit && !has_normals && primitive_of(mode) == pipeline::Primitive::triangles;
     UsedVertices selection = is_flat ? select_unshared(std::move(all)) : select_used(std::move(all));
     pipeline::Mesh mesh;
+    mesh.primitive = primitive_of(mode);
     mesh.indices = std::move(selection.indices);
     mesh.positions.reserve(selection.vertices.size());
     const MorphedAttribute position{s.json, "POSITION", s.pose.weights, s.accessors, s.budget};
@@ -164,7 +186,7 @@ std::optional<pipeline::Mesh> load_primitive(const PrimitiveSource& s) {
         const std::array<float, 4> p = position.element(vertex);
         mesh.positions.push_back({p[0], p[1], p[2]});
     }
-    if (!is_flat && !s.material.is_unlit)
+    if (!is_flat && !s.material.is_unlit && has_normals)
         read_finite(s, "NORMAL", selection.vertices, [&](const std::array<float, 4>& n, std::size_t) {
             mesh.normals.push_back({n[0], n[1], n[2]});
         });

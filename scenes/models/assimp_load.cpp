@@ -81,9 +81,16 @@ ModelMesh mesh_of(const aiMesh& from) {
         if (from.HasTextureCoords(0))
             mesh.texcoords.push_back({from.mTextureCoords[0][i].x, from.mTextureCoords[0][i].y});
     }
-    for (unsigned i = 0; i < from.mNumFaces; ++i)
-        if (from.mFaces[i].mNumIndices == 3)
-            mesh.indices.insert(mesh.indices.end(), from.mFaces[i].mIndices, from.mFaces[i].mIndices + 3);
+    // SortByPType has left faces of one kind in a mesh. A PLY file without faces has vertices alone, which are points.
+    const bool is_line = from.mPrimitiveTypes == aiPrimitiveType_LINE;
+    mesh.corners = is_line ? 2 : from.mPrimitiveTypes == aiPrimitiveType_POINT || from.mNumFaces == 0 ? 1 : 3;
+    for (unsigned i = 0; i < from.mNumFaces; ++i) {
+        const aiFace& face = from.mFaces[i];
+        if (face.mNumIndices == mesh.corners)
+            mesh.indices.insert(mesh.indices.end(), face.mIndices, face.mIndices + face.mNumIndices);
+    }
+    if (from.mNumFaces == 0)
+        for (unsigned i = 0; i < from.mNumVertices; ++i) mesh.indices.push_back(i);
     return mesh;
 }
 
@@ -106,7 +113,7 @@ ModelMaterial material_of(const aiMaterial& from, bool has_library) {
     return material;
 }
 
-// Points and lines are dropped, polygons become triangles.
+// Points and lines become meshes of their own, polygons become triangles.
 constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_ValidateDataStructure;
 
 }  // namespace
@@ -115,10 +122,15 @@ LoadedModel load(const std::string& name, const ReadRelativeFile& read) {
     LoadedModel model;
     Assimp::Importer importer;
     importer.SetIOHandler(new ModelFolderFiles{read, name, model.has_library});
-    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    const aiScene* const scene = importer.ReadFile(name, steps);
+    const aiScene* scene = importer.ReadFile(name, steps);
+    const std::string failure = scene == nullptr ? importer.GetErrorString() : "";
+    // A cloud of points is a mesh without faces, which Assimp's validation refuses.
+    if (failure.ends_with("contains no faces")) {
+        scene = importer.ReadFile(name, 0);
+        if (scene != nullptr && (scene->mNumMeshes != 1 || scene->mMeshes[0]->mNumFaces != 0)) scene = nullptr;
+    }
     if (scene == nullptr) {
-        model.failure = importer.GetErrorString();
+        model.failure = failure;
         return model;
     }
     // Formats without a scene graph have one node, which uses each mesh once, without a transform.

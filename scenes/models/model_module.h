@@ -19,7 +19,8 @@ struct ModelMesh {
     std::vector<std::array<float, 3>> positions{}, normals{};
     std::vector<std::array<float, 4>> colors{};
     std::vector<std::array<float, 2>> texcoords{};
-    std::vector<std::uint32_t> indices{};  // three per triangle
+    unsigned corners = 3;                  // of a face: 1 point, 2 line, 3 triangle
+    std::vector<std::uint32_t> indices{};  // as many per face
 };
 
 struct ModelMaterial {

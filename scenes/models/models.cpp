@@ -94,10 +94,6 @@ class ModelScene {
         // Assimp reports a failed allocation, which large counts in a file cause, by the name of its exception.
         if (model.failure == "std::bad_alloc")
             throw InputError(path_, "size", "a model that fits into memory", "an allocation that failed in Assimp");
-        if (model.failure.ends_with("contains no faces"))
-            throw InputError(
-                path_, "content", "triangles or polygons",
-                "points or lines without faces, which are not drawn: a surface has to be made of them first");
         if (!model.failure.empty())
             throw InputError(path_, "content", "a model that Assimp can read", in_quotes(model.failure));
         scene_.name = name;
@@ -189,6 +185,16 @@ class ModelScene {
         return number;
     }
 
+    // Lines and points without normals are unlit.
+    static void set_indices(pipeline::Mesh& mesh, const ModelMesh& from) {
+        using enum pipeline::Primitive;
+        mesh.primitive = from.corners == 1 ? points : from.corners == 2 ? lines : triangles;
+        for (std::size_t i = 0; i < from.indices.size(); i += from.corners) {
+            mesh.indices.insert(mesh.indices.end(), 3 - from.corners, from.indices[i]);
+            mesh.indices.insert(mesh.indices.end(), &from.indices[i], &from.indices[i] + from.corners);
+        }
+    }
+
     // A mesh with an alpha below 1 makes its material blended for all meshes that share it.
     void add_mesh(ModelMesh&& from) {
         if (from.indices.empty()) return;
@@ -205,10 +211,10 @@ class ModelScene {
             for (const auto& t : from.texcoords) mesh.texcoords.push_back({t[0], 1.0f - t[1]});
             mesh.texcoords.resize(mesh.positions.size(), {0, 1});  // without coordinates: the texture's first texel
         }
-        mesh.indices = std::move(from.indices);
+        set_indices(mesh, from);
         if (material.unlit)
             mesh.normals.clear();
-        else if (mesh.normals.empty())
+        else if (mesh.normals.empty() && mesh.primitive == pipeline::Primitive::triangles)
             make_flat(mesh);
         scene_.list.instances.push_back({.mesh = static_cast<std::uint32_t>(scene_.list.meshes.size()),
                                          .material = static_cast<std::uint32_t>(from.material)});

@@ -24,6 +24,7 @@ using nlohmann::ordered_json;
 using pipeline::Instance;
 using pipeline::Material;
 using pipeline::Mesh;
+using pipeline::Primitive;
 using pipeline::ShadowLight;
 using pipeline::Texture;
 
@@ -176,6 +177,7 @@ void write_mesh(JsonWriter& io, const Mesh& mesh, std::size_t number, PackFiles&
     add("normals", rows_of(mesh.normals));
     add("colors", rows_of(mesh.colors));
     add("texcoords", rows_of(mesh.texcoords));
+    if (mesh.primitive != Primitive::triangles) io.choice("primitive", mesh.primitive);
     add("indices", triples_of(mesh.indices));
 }
 
@@ -200,6 +202,7 @@ void read_mesh(JsonReader& io, Mesh& mesh, const Arrays& arrays) {
     mesh.normals = vectors_of<Vec3>(arrays.rows(io, "normals", Element::f4, 3));
     mesh.colors = vectors_of<Rgba>(arrays.rows(io, "colors", Element::f4, 4));
     mesh.texcoords = vectors_of<Vec2>(arrays.rows(io, "texcoords", Element::f4, 2));
+    if (io.has("primitive")) io.choice("primitive", mesh.primitive);
     mesh.indices = words_of(arrays.rows(io, "indices", Element::u4, 3));
 }
 

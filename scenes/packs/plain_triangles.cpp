@@ -99,6 +99,19 @@ pipeline::Matrix matrix_at(JsonReader& io, const std::string& key, const std::st
     return matrix_of(entries);
 }
 
+// Rows of one index are points, of two lines, of three triangles; the first row decides.
+void read_indices(JsonReader& io, const std::string& path, Mesh& mesh) {
+    using enum pipeline::Primitive;
+    const json& rows = io.at("indices");
+    const bool has_row = rows.is_array() && !rows.empty() && rows[0].is_array();
+    const std::size_t corners = has_row && (rows[0].size() == 1 || rows[0].size() == 2) ? rows[0].size() : 3;
+    mesh.primitive = corners == 1 ? points : corners == 2 ? lines : triangles;
+    for_each_row<std::uint32_t>(io, "indices", corners, path, [&](const std::vector<std::uint32_t>& row) {
+        mesh.indices.insert(mesh.indices.end(), 3 - corners, row[0]);
+        mesh.indices.insert(mesh.indices.end(), row.begin(), row.end());
+    });
+}
+
 Mesh mesh_of_json(const std::string& path, std::optional<pipeline::View>& view) {
     const json document = parse_strict_json(read_text_file(path, most_json_bytes), path, "triangles in JSON");
     JsonReader io{document, path, ""};
@@ -120,9 +133,7 @@ Mesh mesh_of_json(const std::string& path, std::optional<pipeline::View>& view) 
         throw InputError(path, "/colors", fmt::format("{} colours, one per position", mesh.positions.size()),
                          std::to_string(mesh.colors.size()));
     if (document.contains("indices"))
-        for_each_row<std::uint32_t>(io, "indices", 3, path, [&](const std::vector<std::uint32_t>& corners) {
-            mesh.indices.insert(mesh.indices.end(), corners.begin(), corners.end());
-        });
+        read_indices(io, path, mesh);
     else
         number_through(mesh);
     if (document.contains("view") || document.contains("projection"))

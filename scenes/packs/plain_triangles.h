@@ -5,8 +5,9 @@
 //          or 4 and 8 numbers, with w after z: clip coordinates, which are drawn without a transform unless a view is
 //          given. .json: an object with "positions" [[x, y, z], ...] or [[x, y, z, w], ...] and, optionally, "colors"
 //          [[r, g, b, a], ...], one per position, "indices" [[a, b, c], ...] (else every three positions are a
-//          triangle) and "view" and "projection", 16 numbers each in column-major order. Without colours all are (1, 1,
-//          1, 0.5). Colours are sRGB values, not premultiplied. All triangles are BLEND, unlit and two-sided.
+//          triangle; rows of two are lines, of one points) and "view" and "projection", 16 numbers each in column-major
+//          order. Without colours all are (1, 1, 1, 0.5). Colours are sRGB values, not premultiplied. All triangles are
+//          BLEND, unlit and two-sided.
 // Tests    tests/scenes/packs/plain_triangles_test.cpp
 #pragma once
 #include <string>

@@ -20,6 +20,7 @@
 #include "scenes/procedural/showroom.h"
 #include "scenes/procedural/teapot.h"
 #include "scenes/procedural/volume_beam.h"
+#include "scenes/procedural/wireframe.h"
 
 namespace strata::scenes {
 namespace {
@@ -82,6 +83,11 @@ Scene showroom(const std::string& spec, const SceneOptions& options) {
     return make_showroom(options);
 }
 
+Scene wireframe(const std::string& spec, const SceneOptions& options) {
+    const Parameters parameters{spec, Keys{"tessellation"}};
+    return make_wireframe(options, static_cast<int>(parameters.integer("tessellation", 1, 64, 4)));
+}
+
 // The first case is the default.
 Scene hard_case(const std::string& spec, const SceneOptions& options) {
     const Parameters parameters{spec, Keys{"case"}};
@@ -95,9 +101,9 @@ struct SceneMaker {
     std::string_view name;
     Scene (*make)(const std::string& spec, const SceneOptions& options);
 };
-constexpr SceneMaker makers[] = {{"teapot", teapot},      {"volume-beam", volume_beam}, {"random", random_soup},
-                                 {"planes", plane_stack}, {"shadow-demo", shadow_demo}, {"showroom", showroom},
-                                 {"hard", hard_case}};
+constexpr SceneMaker makers[] = {{"teapot", teapot},       {"volume-beam", volume_beam}, {"random", random_soup},
+                                 {"planes", plane_stack},  {"shadow-demo", shadow_demo}, {"showroom", showroom},
+                                 {"wireframe", wireframe}, {"hard", hard_case}};
 
 Keys names() {
     Keys result;
@@ -132,6 +138,8 @@ const std::vector<ProceduralScene>& procedural_scenes() {
          "a teapot on a plane behind a pane of glass, with a light whose shadow map every pass looks at"},
         {"showroom", "",
          "one of everything that a renderer can get wrong, made for 64x64 pixels: strata diagnose looks at it"},
+        {"wireframe", "tessellation=N",
+         "a teapot of glass with the sides of its cells as lines; N x N cells a patch (1 to 64, default 4)"},
         {"hard", "case=NAME",
          "a small scene on which rasterizers and peels go wrong, seen as it is meant to be unless a camera is named "
          "(strata hard-cases --list names them)"},
@@ -207,6 +215,7 @@ void warn_of_scale_0(const std::string& spec, Scene& scene) {
 Scene load_scene(const std::string& spec, const SceneOptions& options) {
     Scene scene = loaded(spec, options);
     blend_materials(scene.list, options.alpha, spec);
+    scene.list = with_polygon_mode(std::move(scene.list), options.polygon_mode);
     warn_of_scale_0(spec, scene);
     warn_of_far_places(scene);
     if (options.recentre) recentre(scene);

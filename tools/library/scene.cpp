@@ -48,21 +48,32 @@ class Fields {
     std::string thing_;
 };
 
-std::vector<std::uint32_t> indices_of(const Fields& its, const Triangles& triangles) {
-    const std::size_t count = triangles.positions.count;
-    if (triangles.indices.empty()) {
-        if (count % 3 != 0) its.fail("positions.count", "three per triangle", std::to_string(count));
-        std::vector<std::uint32_t> all(count);
-        for (std::size_t i = 0; i < count; ++i) all[i] = static_cast<std::uint32_t>(i);
-        return all;
+std::size_t corners_of(const Fields& its, Primitive primitive) {
+    switch (primitive) {
+        case Primitive::triangles: return 3;
+        case Primitive::lines: return 2;
+        case Primitive::points: return 1;
+        default: break;
     }
-    if (triangles.indices.size() % 3 != 0)
-        its.fail("indices", "three per triangle", std::to_string(triangles.indices.size()));
-    for (std::size_t i = 0; i < triangles.indices.size(); ++i)
-        if (triangles.indices[i] >= count)
-            its.fail("indices[" + std::to_string(i) + "]", "less than " + std::to_string(count),
-                     std::to_string(triangles.indices[i]));
-    return {triangles.indices.begin(), triangles.indices.end()};
+    its.fail("primitive", "triangles, lines or points", std::to_string(static_cast<int>(primitive)));
+}
+
+std::vector<std::uint32_t> indices_of(const Fields& its, const Triangles& triangles) {
+    const std::size_t count = triangles.positions.count, corners = corners_of(its, triangles.primitive);
+    const char* const expected = corners == 3 ? "three per triangle" : "two per line";
+    const std::span<const std::uint32_t> given = triangles.indices;
+    const std::size_t used = given.empty() ? count : given.size();
+    if (used % corners != 0) its.fail(given.empty() ? "positions.count" : "indices", expected, std::to_string(used));
+    std::vector<std::uint32_t> all;
+    all.reserve(used / corners * 3);
+    for (std::size_t i = 0; i < used; ++i) {
+        const std::uint32_t index = given.empty() ? static_cast<std::uint32_t>(i) : given[i];
+        if (index >= count)
+            its.fail("indices[" + std::to_string(i) + "]", "less than " + std::to_string(count), std::to_string(index));
+        // A line has its first end twice, a point its vertex three times.
+        all.insert(all.end(), i % corners == 0 ? 4 - corners : 1, index);
+    }
+    return all;
 }
 
 }  // namespace
@@ -75,7 +86,7 @@ Scene::Scene(const std::string& spec, const SceneOptions& options)
 
 Scene& Scene::add(const Triangles& triangles) {
     const Fields its{triangles};
-    if (triangles.positions.count == 0) its.fail("positions.count", "at least 3", "0");
+    if (triangles.positions.count == 0) its.fail("positions.count", "at least 1", "0");
     if (triangles.positions.count > UINT32_MAX)
         its.fail("positions.count", "at most 4294967295", std::to_string(triangles.positions.count));
     if (triangles.colors.count != 0 && triangles.colors.count != triangles.positions.count)
@@ -89,6 +100,7 @@ Scene& Scene::add(const Triangles& triangles) {
     mesh.positions = its.copied<Vec3>("positions", triangles.positions);
     mesh.colors = its.copied<Rgba>("colors", triangles.colors);
     mesh.indices = indices_of(its, triangles);
+    mesh.primitive = triangles.primitive;
     const auto& c = triangles.color;
     const Rgba color{c[0], c[1], c[2], c[3]};
     pipeline::DrawList& list = scene_.list;

@@ -5,6 +5,7 @@
 #include "pipeline/frame/run_settings.h"
 #include "pipeline/vertices/draw_list.h"
 #include "pipeline/vertices/fog.h"
+#include "pipeline/vertices/polygon_mode.h"
 #include "rasterizer/base/simd.h"
 #include "tools/request/words.h"
 
@@ -56,6 +57,10 @@ inline const std::vector<Choice<Simd>> simds{
 
 inline const std::vector<Choice<pipeline::FogMode>> fog_modes{
     {"linear", pipeline::FogMode::linear}, {"exp", pipeline::FogMode::exp}, {"exp2", pipeline::FogMode::exp2}};
+
+inline const std::vector<Choice<pipeline::PolygonMode>> polygon_modes{{"fill", pipeline::PolygonMode::fill},
+                                                                      {"line", pipeline::PolygonMode::line},
+                                                                      {"point", pipeline::PolygonMode::point}};
 
 inline const std::vector<Choice<pipeline::Effects>> effects{{"needed", pipeline::Effects::needed},
                                                             {"all", pipeline::Effects::all}};

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "rasterizer/set_up/check_input.h"
 #include "tools/request/choices.h"
 #include "tools/request/groups.h"
 #include "tools/request/make_field.h"
@@ -77,6 +78,13 @@ std::optional<rasterizer::PolygonOffset> to_polygon_offset(std::string_view text
 
 std::string polygon_offset_text(const rasterizer::PolygonOffset& offset) {
     return offset.enabled ? fmt::format("{},{}", offset.factor, offset.units) : "";
+}
+
+constexpr const char* size_expected = "a number of pixels from 0 to 65536";
+
+std::optional<float> to_size_px(std::string_view text) {
+    const auto px = to_number<float>(text);
+    return px && *px >= 0 && *px <= rasterizer::greatest_size_px ? px : std::nullopt;
 }
 
 std::string epsilon_text(const pipeline::CompareEpsilon& epsilon) {
@@ -184,6 +192,11 @@ std::vector<OptionField> depth_fields() {
               {"depth-range", "NEAR,FAR", "glDepthRange: the depths of the near and of the far plane (default 0,1)",
                "two numbers from 0 to 1 such as 0,0.5"},
               set_depth_range, depth_range_text, copy_depth_range),
+        number<&PictureRequest::render, &RenderOptions::raster, &RasterState::line_width_px>(
+            depth, {"line-width", "PX", "glLineWidth: pixels across a line (default 1)", size_expected}, to_size_px),
+        number<&PictureRequest::render, &RenderOptions::raster, &RasterState::point_size_px>(
+            depth, {"point-size", "PX", "glPointSize: the sides of a point in pixels (default 1)", size_expected},
+            to_size_px),
         field<&PictureRequest::render, &RenderOptions::raster, &RasterState::scissor>(
             depth,
             {"scissor", "X,Y,W,H",

@@ -93,6 +93,9 @@ std::vector<OptionField> view_fields() {
         flag<&PictureRequest::scene_options, &SceneOptions::light>(reading, "light", "draw every material unlit"),
         flag<&PictureRequest::scene_options, &SceneOptions::recentre>(
             reading, "recentre", "move the middle of the scene's bounds to the origin, as engines do with maps"),
+        choice<&PictureRequest::scene_options, &SceneOptions::polygon_mode>(
+            reading, "polygon-mode", polygon_modes,
+            "glPolygonMode: draw triangles filled, as their sides or as their corners (default fill)"),
         joint(view,
               {"size", "WIDTHxHEIGHT", "pixels (default 1024x1024)",
                "WIDTHxHEIGHT such as 640x480, each from 1 to 16384"},

@@ -46,7 +46,27 @@ TEST_CASE("triangles and strips and fans take their corners in the specification
     CHECK(corners_of(8, 4) == Indices{0, 1, 2, 3, 4, 5});
     CHECK(corners_of(2, 5).empty());
     CHECK(corners_of(2, 6).empty());
-    for (const int mode : {0, 1, 2, 3}) CHECK(corners_of(6, mode).empty());
+}
+
+TEST_CASE("points and lines and loops and strips are the specification's pairs") {
+    CHECK(corners_of(2, 0) == Indices{0, 0, 0, 1, 1, 1});
+    CHECK(corners_of(4, 1) == Indices{0, 0, 1, 2, 2, 3});
+    CHECK(corners_of(5, 1) == Indices{0, 0, 1, 2, 2, 3});
+    CHECK(corners_of(3, 2) == Indices{0, 0, 1, 1, 1, 2, 2, 2, 0});
+    CHECK(corners_of(3, 3) == Indices{0, 0, 1, 1, 1, 2});
+    for (const int mode : {1, 2, 3}) CHECK(corners_of(1, mode).empty());
+    using enum strata::pipeline::Primitive;
+    for (const auto& [mode, primitive] : {std::pair{0, points}, {1, lines}, {2, lines}, {3, lines}, {4, triangles}}) {
+        const auto scene = numbered_vertices(3, {{"mode", mode}}).load();
+        CHECK(scene.list.meshes.at(0).primitive == primitive);
+        // Lines and points without normals are unlit and share their vertices.
+        CHECK(scene.list.meshes[0].normals.empty() == (primitive != triangles));
+    }
+    GltfFile lit = numbered_vertices(2, {{"mode", 1}});
+    lit.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = lit.positions({0, 0, 1, 0, 0, 1});
+    CHECK(lit.load().list.meshes.at(0).normals.size() == 2);
+    CHECK(numbered_vertices(5, {{"mode", 1}}).load().warnings.size() ==
+          numbered_vertices(4, {{"mode", 1}}).load().warnings.size() + 1);
 }
 
 TEST_CASE("an indexed strip is the strip of its indices and unused vertices are omitted") {

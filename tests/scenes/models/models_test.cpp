@@ -60,13 +60,29 @@ TEST_CASE("one triangle in any model format has the positions of the file and is
     }
 }
 
-TEST_CASE("polygons are split into triangles with a mesh per material and points and lines are omitted") {
+// The positions of the primitives of one kind, x alone.
+std::vector<float> corners_of(const Scene& scene, pipeline::Primitive primitive) {
+    std::vector<float> corners;
+    for (const pipeline::Mesh& mesh : scene.list.meshes)
+        for (const std::uint32_t index : mesh.indices)
+            if (mesh.primitive == primitive) corners.push_back(mesh.positions.at(index)[0]);
+    return corners;
+}
+
+TEST_CASE("polygons are split into triangles and lines and points have meshes of their own") {
+    using enum pipeline::Primitive;
     const strata::test::OwnFolder folder;
     const Scene scene =
-        load_scene(put(folder, "q.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nf 1 2 3 4\nl 1 5\np 5\n"), {});
-    std::size_t corners = 0;
-    for (const pipeline::Mesh& mesh : scene.list.meshes) corners += mesh.indices.size();
-    CHECK(corners == 6);
+        load_scene(put(folder, "q.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nf 1 2 3 4\nl 1 5 2\np 5\n"), {});
+    CHECK(corners_of(scene, triangles).size() == 6);
+    CHECK(corners_of(scene, lines) == std::vector<float>{0, 0, 2, 2, 2, 1});
+    CHECK(corners_of(scene, points) == std::vector<float>{2, 2, 2});
+    const Scene cloud =
+        load_scene(put(folder, "c.ply",
+                       "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+                       "end_header\n3 0 0\n4 1 0\n"),
+                   {});
+    CHECK(corners_of(cloud, points) == std::vector<float>{3, 3, 3, 4, 4, 4});
 }
 
 TEST_CASE("materials of an OBJ file keep their properties and unsupported features are reported") {

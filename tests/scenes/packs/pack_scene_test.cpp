@@ -36,7 +36,8 @@ bool same_floats(const std::vector<T>& a, const std::vector<T>& b) {
 
 bool is_same(const pipeline::Mesh& a, const pipeline::Mesh& b) {
     return a.name == b.name && same_floats(a.positions, b.positions) && same_floats(a.normals, b.normals) &&
-           same_floats(a.colors, b.colors) && same_floats(a.texcoords, b.texcoords) && a.indices == b.indices;
+           same_floats(a.colors, b.colors) && same_floats(a.texcoords, b.texcoords) && a.indices == b.indices &&
+           a.primitive == b.primitive;
 }
 
 void check_same(const Scene& a, const Scene& b) {
@@ -68,6 +69,21 @@ TEST_CASE("every built-in scene is unchanged in every bit after a pack round tri
         const Scene back = load_scene(folder.path() + "/manifest.json", {.color_space = pipeline::ColorSpace::linear});
         check_same(scene, back);
         if (!scene.bounds.is_empty()) CHECK((back.bounds.lo == scene.bounds.lo && back.bounds.hi == scene.bounds.hi));
+    }
+}
+
+TEST_CASE("a pack keeps lines and points and has no key for triangles") {
+    using enum pipeline::Primitive;
+    for (const pipeline::Primitive primitive : {triangles, lines, points, polygon_lines, polygon_points}) {
+        const strata::test::OwnFolder folder;
+        Scene scene = load_scene("random:triangles=2,seed=1", {});
+        scene.list.meshes[0].primitive = primitive;
+        scene.list.meshes[0].indices = {0, 0, 0};
+        scene.own_view = orbit_view(scene.bounds, 33, 21, 1.25);
+        write_scene(scene, pipeline::ColorSpace::encoded, folder.path());
+        check_same(scene, load_scene(folder.path(), {}));
+        const auto mesh = read_manifest(folder.path()).at("scene").at("meshes").at(0);
+        CHECK(mesh.contains("primitive") == (primitive != triangles));
     }
 }
 

@@ -108,3 +108,18 @@ TEST_CASE("triangles are read from a .json file with a view if it has one") {
     fails(R"({"positions": [], "colours": []})", "only the keys");
     fails(R"({"positions": [], "view": [1]})", "/view: expected an array of 16 numbers, found an array of 1");
 }
+
+TEST_CASE("rows of two indices are lines and of one points") {
+    const strata::test::OwnFolder folder;
+    const std::string positions = R"({"positions": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "indices": )";
+    const auto mesh = [&](const std::string& rows) {
+        return load_scene(written(folder, "t.json", positions + rows + "}"), {}).list.meshes.at(0);
+    };
+    CHECK(mesh("[[0, 1], [1, 2]]").primitive == pipeline::Primitive::lines);
+    CHECK(mesh("[[0, 1], [1, 2]]").indices == std::vector<std::uint32_t>{0, 0, 1, 1, 1, 2});
+    CHECK(mesh("[[2], [0]]").primitive == pipeline::Primitive::points);
+    CHECK(mesh("[[2], [0]]").indices == std::vector<std::uint32_t>{2, 2, 2, 0, 0, 0});
+    CHECK(mesh("[]").primitive == pipeline::Primitive::triangles);
+    CHECK_THROWS_WITH(mesh("[[0, 1], [2]]"), Catch::Contains("/indices/1: expected an array of 2 numbers"));
+    CHECK_THROWS_WITH(mesh("[[0, 1, 2, 0]]"), Catch::Contains("/indices/0: expected an array of 3 numbers"));
+}

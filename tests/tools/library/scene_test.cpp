@@ -59,6 +59,30 @@ TEST_CASE("interleaved and indexed and plain vertices of equal content make the 
     CHECK(digest_of(interleaved) == digest_of(plain));
 }
 
+TEST_CASE("two vertices are a line and one a point") {
+    const auto indices = [](Primitive primitive, std::span<const std::uint32_t> given) {
+        Triangles shapes = both();
+        shapes.primitive = primitive;
+        shapes.indices = given;
+        Scene scene;
+        scene.add(shapes);
+        CHECK(scene.list().meshes.at(0).primitive == primitive);
+        return scene.list().meshes[0].indices;
+    };
+    const std::uint32_t four[] = {3, 1, 1, 2};
+    using Indices = std::vector<std::uint32_t>;
+    CHECK(indices(Primitive::lines, four) == Indices{3, 3, 1, 1, 1, 2});
+    CHECK(indices(Primitive::points, std::span{four}.first(2)) == Indices{3, 3, 3, 1, 1, 1});
+    CHECK(indices(Primitive::lines, {}) == Indices{0, 0, 1, 2, 2, 3, 4, 4, 5});
+    CHECK_THAT(message_for([&](Triangles& t) {
+                   t.primitive = Primitive::lines;
+                   t.indices = std::span{four}.first(3);
+               }),
+               Contains("indices: expected two per line, found 3"));
+    CHECK_THAT(message_for([](Triangles& t) { t.primitive = Primitive::polygon_lines; }),
+               Contains("primitive: expected triangles, lines or points, found 3"));
+}
+
 TEST_CASE("without a camera positions are clip coordinates and a model matrix transforms them") {
     Scene moved;
     Triangles shifted = both();
@@ -101,7 +125,7 @@ TEST_CASE("an invalid field of triangles is rejected by name and nothing is adde
                }),
                Contains("triangles 'both': positions.count: expected three per triangle, found 5"));
     CHECK_THAT(message_for([](Triangles& t) { t.positions.count = 0; }),
-               Contains("positions.count: expected at least 3, found 0"));
+               Contains("positions.count: expected at least 1, found 0"));
     CHECK_THAT(message_for([](Triangles& t) { t.positions.first = nullptr; }),
                Contains("positions.first: expected the address of 6 vertices, found null"));
     CHECK_THAT(message_for([](Triangles& t) { t.positions.stride_bytes = 8; }),

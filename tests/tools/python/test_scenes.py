@@ -118,3 +118,14 @@ def test_keywords_are_the_options_of_a_command_line_and_back():
                 again[key] = True if words.get(key) == ["true", "false"] else rest.pop(0)
         assert strata._strata._command_words(**again) == line
         assert set(again) <= set(given)
+
+
+def test_two_vertices_are_a_line_and_one_a_point():
+    def covered(primitive, **options):
+        scene = strata.Scene().add([[-0.5, 0.1, 0], [0.5, 0.1, 0]], primitive=primitive)
+        return int((strata.render(scene, "dual", size=(16, 16), **options).color[..., 0] > 0).sum())
+
+    assert covered("lines") == 8 and covered("lines", line_width=3) == 24
+    assert covered("points") == 2 and covered("points", point_size=3) == 18
+    with pytest.raises(strata.InputError, match="primitive: expected triangles, lines or points, found 'line'"):
+        strata.Scene().add(CORNERS, primitive="line")

@@ -57,5 +57,9 @@ build/release/strata invariance planes:gap=4,count=4 --size 128x96 --depth-forma
 for cell in 0 1 2 3; do oiiotool "$work/planes/images/000$cell.errors.png" --resample 200% -o "$work/errors.$cell.png"; done
 row bias.png "$work"/errors.{0,1,2,3}.png
 
+# A wireframe over glass in submission order and peeled (how-to.md).
+build/release/strata render wireframe "${view[@]:1}" --background 1,1,1 --algorithm unsorted,dual -o "$work/wireframe.png" >/dev/null
+row wireframe.png "$work/wireframe.unsorted.png" "$work/wireframe.dual.png"
+
 # A report in a browser.
 /usr/bin/python3 tools/docs/pictures/report.py build/release/strata

@@ -261,6 +261,12 @@ class Planner {
         const peeling::RenderOptions& o = job_.scene->options.render;
         const std::uint64_t drawn = total(plan_.tiles.transparent_fragments);
         add("clipping", setup_.clipped > 0, fmt::format("{} triangles cross a clip plane", setup_.clipped), 0, 0);
+        const auto is_other = [&](const pipeline::Instance& i) {
+            return list().meshes[i.mesh].primitive != pipeline::Primitive::triangles;
+        };
+        const auto others = std::ranges::count_if(list().instances, is_other);
+        add("lines and points", others > 0,
+            others > 0 ? fmt::format("{} of {} instances", others, list().instances.size()) : "triangles alone", 0, 0);
         add("user clip planes", o.raster.clip_plane_count > 0, "set by a program alone", 0, 0);
         add("scissor", o.raster.scissor.has_value(), "set by a program alone", 0, 0);
         add("polygon offset", o.raster.polygon_offset.enabled, "set by a program alone", 0, 0);

@@ -19,6 +19,7 @@
 namespace strata {
 inline namespace v0_1 {
 
+using pipeline::Primitive;
 using pipeline::View;
 using scenes::LookAt;
 using scenes::SceneOptions;
@@ -35,16 +36,19 @@ struct VertexArray {
         : first{data}, count{vertices}, stride_bytes{stride} {}
 };
 
+// Triangles, or lines or points.
 struct Triangles {
     std::string name{};
-    VertexArray positions{};                   // x y z
-    VertexArray colors{};                      // red green blue alpha, not premultiplied; empty: only `color`
-    std::span<const std::uint32_t> indices{};  // three per triangle; empty: every three vertices are a triangle
+    VertexArray positions{};  // x y z
+    VertexArray colors{};     // red green blue alpha, not premultiplied; empty: only `color`
+    // Three per triangle, two per line, one per point; empty: the vertices in order.
+    std::span<const std::uint32_t> indices{};
     // Multiplied with the vertices' colours.
     std::array<float, 4> color{1, 1, 1, 1};
     bool is_transparent = true;  // false: drawn before all transparent triangles, and hides those behind it
     bool is_double_sided = true;
     std::optional<std::array<double, 16>> model{};  // object to world, column by column; empty: the identity
+    Primitive primitive = Primitive::triangles;     // or lines or points
 };
 
 class Scene {

@@ -21,15 +21,23 @@ VertexArray vertices_of(const char* field, const Floats& array, py::ssize_t size
     return {array.data(), static_cast<std::size_t>(array.shape(0)), static_cast<std::size_t>(array.strides(0))};
 }
 
+Primitive primitive_of(const std::string& name) {
+    if (name == "triangles") return Primitive::triangles;
+    if (name == "lines") return Primitive::lines;
+    if (name == "points") return Primitive::points;
+    throw InputError("triangles", "primitive", "triangles, lines or points", "'" + name + "'");
+}
+
 void add(Scene& scene, const Floats& positions, const std::optional<Floats>& colors,
          const std::optional<py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>>& indices,
          const std::array<float, 4>& color, bool transparent, bool double_sided,
-         const std::optional<std::array<double, 16>>& model, const std::string& name) {
+         const std::optional<std::array<double, 16>>& model, const std::string& name, const std::string& primitive) {
     Triangles triangles{.name = name, .color = color, .is_transparent = transparent, .is_double_sided = double_sided};
     triangles.positions = vertices_of("positions", positions, 3);
     if (colors) triangles.colors = vertices_of("colors", *colors, 4);
     if (indices) triangles.indices = {indices->data(), static_cast<std::size_t>(indices->size())};
     triangles.model = model;
+    triangles.primitive = primitive_of(primitive);
     scene.add(triangles);
 }
 

@@ -5,8 +5,8 @@
 #include <bit>
 #include <span>
 
+#include "pipeline/geforce3/lighting.h"
 #include "pipeline/region/fragment_path.h"
-#include "pipeline/vertices/lighting.h"
 #include "tools/lab/hardware_check/drawing/fixed_pipeline.h"
 #include "tools/lab/hardware_check/drawing/host_matrices.h"
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "pipeline/vertices/polygon_mode.h"
 #include "tools/lab/hardware_check/drawing/shapes.h"
 
 namespace strata::hardware_check {
@@ -36,7 +37,7 @@ struct OutlinedTriangle {
 // Of `count` vertices; empty for points and lines.
 [[nodiscard]] std::vector<OutlinedTriangle> split(Topology topology, std::uint32_t count);
 
-enum class PolygonMode : std::uint8_t { fill, line };
+using pipeline::PolygonMode;
 
 // A soup of all vertices and the draw's primitives, and their kind.
 struct SplitDraw {

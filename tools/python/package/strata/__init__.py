@@ -36,11 +36,12 @@ class Scene(_strata.Scene):
 
     def add(self, positions: npt.ArrayLike, *, colors: Optional[npt.ArrayLike] = None, indices: Optional[npt.ArrayLike] = None,
             color: Sequence[float] = (1, 1, 1, 1), transparent: bool = True, double_sided: bool = True,
-            model: Optional[npt.ArrayLike] = None, name: str = "") -> "Scene":
-        """Positions are (vertices, 3) and colors (vertices, 4), straight, as binary32; indices three per triangle; model a 4 x 4 matrix."""
+            model: Optional[npt.ArrayLike] = None, name: str = "", primitive: str = "triangles") -> "Scene":
+        """Positions are (vertices, 3) and colors (vertices, 4), straight, as binary32; indices three per triangle; model a 4 x 4 matrix.
+        primitive may be "lines", with two indices each, or "points", with one."""
         by_columns = None if model is None else np.asarray(model, dtype=np.float64).reshape(4, 4).T.ravel().tolist()
         self._add(_floats("positions", positions), None if colors is None else _floats("colors", colors),
-                  None if indices is None else _indices(indices), list(color), transparent, double_sided, by_columns, name)
+                  None if indices is None else _indices(indices), list(color), transparent, double_sided, by_columns, name, primitive)
         return self
 
 

@@ -1,5 +1,5 @@
-// pipeline/vertices/lighting.cpp - the lighting unit's sums (lighting.h).
-#include "pipeline/vertices/lighting.h"
+// pipeline/geforce3/lighting.cpp - the lighting unit's sums (lighting.h).
+#include "pipeline/geforce3/lighting.h"
 
 #include <algorithm>
 

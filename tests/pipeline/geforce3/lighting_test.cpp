@@ -1,6 +1,6 @@
 // Tests the lighting unit against the same sums in binary64, within the error of 14-bit numbers, and its flags against
 // the table of pipeline/reference/fog-and-lighting.md 5.4.
-#include "pipeline/vertices/lighting.h"
+#include "pipeline/geforce3/lighting.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,11 +1,11 @@
-// pipeline/vertices/lighting.h - NV2A's lighting of a vertex by the fixed pipeline: the primary and the secondary
+// pipeline/geforce3/lighting.h - NV2A's lighting of a vertex by the fixed pipeline: the primary and the secondary
 // colour from its normal, its colours and up to eight lights.
 //
 // Rule     Constants are rounded to 22-bit floats; terms are added in the order emission and scene ambient, then each
 //          light's ambient, diffuse and specular. Distances and directions of local lights are of the 32-bit unit and
 //          then rounded. The specular term is a quotient of two polynomials instead of a power.
 // Source   pipeline/reference/fog-and-lighting.md 5, from captures; the last bit of the specular term is open.
-// Tests    tests/pipeline/vertices/lighting_test.cpp; tests/tools/lab/hardware_check/suites_test.cpp: captures
+// Tests    tests/pipeline/geforce3/lighting_test.cpp; tests/tools/lab/hardware_check/suites_test.cpp: captures
 #pragma once
 #include <array>
 #include <cstdint>
