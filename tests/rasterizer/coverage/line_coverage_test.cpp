@@ -19,7 +19,7 @@ const RasterRules chip_lines{.subpixel_bits = 4,
 
 // Rule 2: `w` eighths of a pixel.
 PixelSet band_model(const RandomLine& line, int w) {
-    const auto& [a, b] = line;
+    const auto &a = line.a, &b = line.b;
     const Integer dx = b.x - a.x, dy = b.y - a.y, mx = std::max(abs(dx), abs(dy)), mn = std::min(abs(dx), abs(dy));
     if (w == 0 || mx == 0) return {};
     const int h = (w + 15) / 16;
