@@ -9,9 +9,9 @@
 // Source   glTF 2.0, 3.7.2.2 (morph targets), 3.7.3 (skins), 3.7.4 (weights and determinants).
 // Tests    tests/scenes/gltf/gltf_pose_test.cpp
 #pragma once
-#include <compare>
 #include <map>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "scenes/gltf/accessor.h"
@@ -25,7 +25,10 @@ struct Pose {
     std::vector<double> weights{};  // of the morph targets; empty if all are 0
     int skin = -1;
     bool is_mirrored = false;  // false without a skin
-    friend auto operator<=>(const Pose&, const Pose&) = default;
+    // The libraries of browsers compare no vectors in three ways.
+    friend bool operator<(const Pose& a, const Pose& b) {
+        return std::tie(a.weights, a.skin, a.is_mirrored) < std::tie(b.weights, b.skin, b.is_mirrored);
+    }
 };
 [[nodiscard]] Pose pose_of(const JsonAt& node, const JsonAt& mesh, const pipeline::Matrix& world);
 
