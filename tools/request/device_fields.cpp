@@ -84,7 +84,7 @@ constexpr const char* size_expected = "a number of pixels from 0 to 65536";
 
 std::optional<float> to_size_px(std::string_view text) {
     const auto px = to_number<float>(text);
-    return px && *px >= 0 && *px <= rasterizer::greatest_size_px ? px : std::nullopt;
+    return px && !std::signbit(*px) && *px <= rasterizer::greatest_size_px ? px : std::nullopt;
 }
 
 std::string epsilon_text(const pipeline::CompareEpsilon& epsilon) {
