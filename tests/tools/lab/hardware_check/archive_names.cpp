@@ -210,8 +210,7 @@ void add_vertex_suites(Archive& archive) {
     add(archive, Outcome::drawn, "Attrib_float", floats, 11);
     const Names attributes{"w", "n", "d", "s", "fc", "ps", "bd", "bs", "t0", "t1", "t2", "t3"},
         endings{"0.1_0.0_1.0_1.0-da", "0.8_0.0_0.0_1.0-ib", "0.5_0.0_0.0_1.0-ia", "0.2_0.0_0.6_1.0-ie"};
-    add(archive, Outcome::drawn, "Attrib_carryover", with(with({"T-"}, attributes), endings), 48);
-    add(archive, Outcome::not_modelled, "Attrib_carryover", with(with({"L-"}, attributes), endings), 48);
+    add(archive, Outcome::drawn, "Attrib_carryover", with(with({"L-", "T-"}, attributes), endings), 96);
     Names swizzles{"Control", "ControlNA"};
     for (int n = 0; n < 17; ++n) swizzles.push_back(fmt::format("Mov{:02}", n));
     for (int n = 0; n < 10; ++n) swizzles.push_back(fmt::format("NAMov{:02}", n));

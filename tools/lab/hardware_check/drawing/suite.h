@@ -51,6 +51,7 @@ Drawing draw_surface_clip(std::string_view name, const pipeline::DeviceProfile& 
 Drawing draw_texture_perspective(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_texture_shadow_comparator(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_three_d_primitive(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_two_d_lines(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_vertex_shader_rounding(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_vertex_swizzle(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_viewport(std::string_view name, const pipeline::DeviceProfile& profile);

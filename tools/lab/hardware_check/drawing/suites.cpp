@@ -21,6 +21,7 @@ constexpr Subjects colors = set_of(Subject::color), coordinates = set_of(Subject
 // In ASCII order of the names.
 std::span<const Suite> suites() {
     static constexpr std::array all{
+        Suite{"2D_Lines", draw_two_d_lines},
         Suite{"3D_primitive", draw_three_d_primitive, colors},
         Suite{"Alpha_func", draw_alpha_func, colors},
         Suite{"Antialiasing_tests", draw_antialiasing},

@@ -1,12 +1,14 @@
 // Suites Attrib_float: <upper value>_<lower value>, Attrib_carryover: <L|T>-<attribute><value>-<command>, and
 // SetVertexData: SET_VERTEX_DATA<format>: what a vertex program and the lighting unit read of a vertex.
 // pipeline/reference/vertices.md 3.4.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <vector>
 
 #include "tools/lab/hardware_check/drawing/lit.h"
 #include "tools/lab/hardware_check/drawing/names.h"
+#include "tools/lab/hardware_check/drawing/splits.h"
 #include "tools/lab/hardware_check/drawing/suite.h"
 
 namespace strata::hardware_check {
@@ -104,6 +106,33 @@ Color carried_over(AttributeKind kind, const CarryoverTest& test, float flag) {
     return kind == AttributeKind::two_values ? Color{last[0], last[1], 0, 1} : last;
 }
 
+// With indices the last vertex is drawn first.
+void draw_in_order(pipeline::Surface& surface, const CarryoverTest& test, std::vector<ClipVertex> vertices) {
+    if (test.is_indexed) std::ranges::rotate(vertices, vertices.end() - 1);
+    const Topology topology = vertices.size() == 2 ? Topology::lines : Topology::triangles;
+    SplitDraw draw = split_draw(topology, vertices, PolygonMode::fill);
+    surface.draw({}, std::move(draw.soup), draw.primitive);
+}
+
+SuitePicture carryover_picture(const pipeline::DeviceProfile& profile, const CarryoverTest& test, bool is_line,
+                               const Color& last, const Color& after) {
+    constexpr float left = 128, right = 512, top = 80, bottom = 400, middle = 320, z = 3;
+    const Color white{1, 1, 1, 1}, green{0, 1, 0, 1};
+    pipeline::Surface surface{profile, {}};
+    surface.clear_color(unpack(0xff444444));
+    if (is_line) {
+        draw_in_order(surface, test, {at(left, top, z, green), at(right, top, z, last)});
+        draw_in_order(surface, test, {at(left, bottom, z, after), at(right, bottom, z, after)});
+    } else {
+        draw_in_order(surface, test,
+                      {at(left, top, z, white), at(middle, top, z, green), at((left + middle) / 2, bottom, z, last)});
+        draw_in_order(
+            surface, test,
+            {at(middle, top, z, after), at(right, top, z, after), at((right + middle) / 2, bottom, z, after)});
+    }
+    return {.image = surface.color()};
+}
+
 }  // namespace
 
 // A triangle or a line with the attribute, then one that has only positions: it keeps what the last vertex had. With
@@ -116,25 +145,8 @@ Drawing draw_attrib_carryover(std::string_view name, const pipeline::DeviceProfi
         if (!take_last(word, test.ending)) continue;
         const auto kind = attribute_kind(word);
         if (!kind) return unknown_name;
-        if (is_line) return {std::nullopt, "lines are not drawn"};
         const Color after = carried_over(*kind, test, word == "w" ? 0.66f : word == "fc" ? 0.5f : 0.7f);
-        const Color magenta{1, 0, 1, 1}, white{1, 1, 1, 1}, green{0, 1, 0, 1};
-        const std::array<Color, 3> before{white, green, word == "d" ? test.value : magenta};
-        constexpr float left = 128, right = 512, top = 80, bottom = 400, middle = 320;
-        const std::array<ClipVertex, 3> first{at(left, top, 3, before[0]), at(middle, top, 3, before[1]),
-                                              at((left + middle) / 2, bottom, 3, before[2])};
-        // The order of the indices.
-        const std::array<std::size_t, 3> order =
-            test.is_indexed ? std::array<std::size_t, 3>{2, 0, 1} : std::array<std::size_t, 3>{0, 1, 2};
-        TriangleSoup soup;
-        add_triangle(soup, first[order[0]], first[order[1]], first[order[2]]);
-        const std::array<ClipVertex, 3> second{at(middle, top, 3, after), at(right, top, 3, after),
-                                               at((right + middle) / 2, bottom, 3, after)};
-        add_triangle(soup, second[order[0]], second[order[1]], second[order[2]]);
-        pipeline::Surface surface{profile, {}};
-        surface.clear_color(unpack(0xff444444));
-        surface.draw({}, soup);
-        return {SuitePicture{.image = surface.color()}, {}};
+        return {carryover_picture(profile, test, is_line, word == "d" ? test.value : Color{1, 0, 1, 1}, after), {}};
     }
     return unknown_name;
 }
