@@ -11,16 +11,16 @@
 namespace strata::hardware_check {
 namespace {
 
-struct End {
+struct LineEnd {
     int x, y;
 };
-std::optional<End> end_of(std::string_view word) {
+std::optional<LineEnd> end_of(std::string_view word) {
     const auto x = to_number(take_until(word, "_")), y = to_number(word);
     const auto is_inside = [](float v, int size) {
         return v >= 0 && v < static_cast<float>(size) && v == std::floor(v);
     };
     if (!x || !y || !is_inside(*x, picture_width) || !is_inside(*y, picture_height)) return std::nullopt;
-    return End{static_cast<int>(*x), static_cast<int>(*y)};
+    return LineEnd{static_cast<int>(*x), static_cast<int>(*y)};
 }
 
 // `v` of `of` steps on an axis whose length is `length`, to the nearest. Captures show no ties.
