@@ -1,6 +1,8 @@
 // rasterizer/rules/primitive.h - the kinds of primitives of a draw, and the shapes that they are rasterized as.
 #pragma once
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace strata::rasterizer {
 
@@ -9,6 +11,17 @@ namespace strata::rasterizer {
 // index, and the vertex of the third; the triangle decides facing and culling
 // (rasterizer/reference/lines-and-points.md 1).
 enum class Primitive : std::uint8_t { triangles, lines, points, polygon_lines, polygon_points };
+
+// Of a list of primitives with 1, 2 or 3 corners.
+[[nodiscard]] constexpr Primitive primitive_of(std::size_t corners) noexcept {
+    return corners == 1 ? Primitive::points : corners == 2 ? Primitive::lines : Primitive::triangles;
+}
+
+// Appends the three indices of a point, line or triangle, which are given by its 1, 2 or 3 corners.
+inline void append_primitive(std::vector<std::uint32_t>& indices, std::span<const std::uint32_t> corners) {
+    indices.insert(indices.end(), 3 - corners.size(), corners.front());
+    indices.insert(indices.end(), corners.begin(), corners.end());
+}
 
 // What a record covers. polygon: a triangle whose coverage is that of NV2A's smooth polygons.
 enum class Shape : std::uint8_t { triangle, line, point, polygon };

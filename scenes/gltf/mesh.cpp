@@ -2,9 +2,11 @@
 #include "scenes/gltf/mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
+#include "rasterizer/rules/primitive.h"
 #include "scenes/flat_normals.h"
 
 namespace strata::scenes {
@@ -45,16 +47,16 @@ Indices lines_and_points(const Indices& order, int mode, const PrimitiveSource& 
     Indices all;
     all.reserve(3 * order.size());
     if (mode == TINYGLTF_MODE_POINTS) {
-        for (const std::uint32_t vertex : order) all.insert(all.end(), {vertex, vertex, vertex});
+        for (const std::uint32_t& vertex : order) rasterizer::append_primitive(all, {&vertex, 1});
         return all;
     }
     const bool is_list = mode == TINYGLTF_MODE_LINE;
     if (order.size() < 2 || (is_list && order.size() % 2 != 0))
         s.warnings.add(s.location.pointer, "vertices that make no whole line are ignored");
     for (std::size_t i = 0; i + 1 < order.size(); i += is_list ? 2 : 1)
-        all.insert(all.end(), {order[i], order[i], order[i + 1]});
+        rasterizer::append_primitive(all, {&order[i], 2});
     if (mode == TINYGLTF_MODE_LINE_LOOP && order.size() > 1)
-        all.insert(all.end(), {order.back(), order.back(), order.front()});
+        rasterizer::append_primitive(all, std::array{order.back(), order.front()});
     return all;
 }
 

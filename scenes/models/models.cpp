@@ -14,6 +14,7 @@
 #include "pipeline/vertices/check_list.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
+#include "rasterizer/rules/primitive.h"
 #include "scenes/bounds.h"
 #include "scenes/file_ending.h"
 #include "scenes/files/image_decode.h"
@@ -187,12 +188,9 @@ class ModelScene {
 
     // Lines and points without normals are unlit.
     static void set_indices(pipeline::Mesh& mesh, const ModelMesh& from) {
-        using enum pipeline::Primitive;
-        mesh.primitive = from.corners == 1 ? points : from.corners == 2 ? lines : triangles;
-        for (std::size_t i = 0; i < from.indices.size(); i += from.corners) {
-            mesh.indices.insert(mesh.indices.end(), 3 - from.corners, from.indices[i]);
-            mesh.indices.insert(mesh.indices.end(), &from.indices[i], &from.indices[i] + from.corners);
-        }
+        mesh.primitive = rasterizer::primitive_of(from.corners);
+        for (std::size_t i = 0; i < from.indices.size(); i += from.corners)
+            rasterizer::append_primitive(mesh.indices, {&from.indices[i], from.corners});
     }
 
     // A mesh with an alpha below 1 makes its material blended for all meshes that share it.

@@ -10,6 +10,7 @@
 #include "pipeline/vertices/check_list.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
+#include "rasterizer/rules/primitive.h"
 #include "scenes/bounds.h"
 #include "scenes/files/strict_json.h"
 #include "scenes/files/text_file.h"
@@ -101,14 +102,12 @@ pipeline::Matrix matrix_at(JsonReader& io, const std::string& key, const std::st
 
 // Rows of one index are points, of two lines, of three triangles; the first row decides.
 void read_indices(JsonReader& io, const std::string& path, Mesh& mesh) {
-    using enum pipeline::Primitive;
     const json& rows = io.at("indices");
     const bool has_row = rows.is_array() && !rows.empty() && rows[0].is_array();
     const std::size_t corners = has_row && (rows[0].size() == 1 || rows[0].size() == 2) ? rows[0].size() : 3;
-    mesh.primitive = corners == 1 ? points : corners == 2 ? lines : triangles;
+    mesh.primitive = rasterizer::primitive_of(corners);
     for_each_row<std::uint32_t>(io, "indices", corners, path, [&](const std::vector<std::uint32_t>& row) {
-        mesh.indices.insert(mesh.indices.end(), 3 - corners, row[0]);
-        mesh.indices.insert(mesh.indices.end(), row.begin(), row.end());
+        rasterizer::append_primitive(mesh.indices, row);
     });
 }
 

@@ -1,8 +1,10 @@
-// tests/rasterizer/lines.h - random lines and points at window positions, and the pixels that the rasterizer draws.
+// tests/rasterizer/lines.h - random lines and points at window positions, the pixels that the rasterizer draws, and the
+// model of NV2A's band.
 #pragma once
 #include <set>
 #include <utility>
 
+#include "tests/rasterizer/rational.h"
 #include "tests/rasterizer/scene.h"
 
 namespace strata::rasterizer {
@@ -78,5 +80,47 @@ template <class Covers>
             if (covers(x, y)) pixels.insert({x, y});
     return pixels;
 }
+
+// NV2A's rules of lines and points, with its four subpixel bits.
+inline const RasterRules chip_lines{.subpixel_bits = 4,
+                                    .snap = Snap::toward_zero,
+                                    .guard_band_px = 524288,
+                                    .lines = LineRule::band,
+                                    .points = PointRule::reciprocal};
+
+// lines-and-points.md 2, of a line that is `w` eighths of a pixel wide.
+class BandModel {
+  public:
+    BandModel(const RandomLine& line, int w) : a_{line.a}, b_{line.b}, w_{w} {
+        const Integer dx = b_.x - a_.x, dy = b_.y - a_.y;
+        width_ = w * (2 * std::max(abs(dx), abs(dy)) + std::min(abs(dx), abs(dy)));
+    }
+
+    // In pixels.
+    [[nodiscard]] bool has_in_box(int x, int y) const {
+        const int h = (w_ + 15) / 16;
+        return x >= pixel(std::min(a_.x, b_.x)) - h && x <= pixel(std::max(a_.x, b_.x)) + h &&
+               y >= pixel(std::min(a_.y, b_.y)) - h && y <= pixel(std::max(a_.y, b_.y)) + h;
+    }
+    // In subpixels.
+    [[nodiscard]] bool has_within_sides(int x, int y) const {
+        const Integer dx = b_.x - a_.x, dy = b_.y - a_.y, px = x - a_.x, py = y - a_.y;
+        if (w_ == 0 || (dx == 0 && dy == 0)) return false;
+        const Integer e = dx * py - dy * px, t = dx * px + dy * py;
+        return is_in(width_ + 2 * e, -dy, dx) && is_in(width_ - 2 * e, dy, -dx) && is_in(t, dx, dy) &&
+               is_in(dx * dx + dy * dy - t, -dx, -dy);
+    }
+
+  private:
+    [[nodiscard]] static int pixel(int v) { return floor(Rational{v, 16}).convert_to<int>(); }
+    // A side with inward normal (nx, ny) and value `v` at the point.
+    [[nodiscard]] static bool is_in(const Integer& v, const Integer& nx, const Integer& ny) {
+        return v > 0 || (v == 0 && (nx < 0 || (nx == 0 && ny > 0)));
+    }
+
+    SubpixelPoint a_, b_;
+    int w_;
+    Integer width_;
+};
 
 }  // namespace strata::rasterizer

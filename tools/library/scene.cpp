@@ -2,10 +2,12 @@
 #include "strata/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
 #include "rasterizer/base/input_error.h"
+#include "rasterizer/rules/primitive.h"
 #include "scenes/bounds.h"
 #include "scenes/camera.h"
 #include "scenes/packs/pack_scene.h"
@@ -66,12 +68,13 @@ std::vector<std::uint32_t> indices_of(const Fields& its, const Triangles& triang
     if (used % corners != 0) its.fail(given.empty() ? "positions.count" : "indices", expected, std::to_string(used));
     std::vector<std::uint32_t> all;
     all.reserve(used / corners * 3);
+    std::array<std::uint32_t, 3> corner;
     for (std::size_t i = 0; i < used; ++i) {
         const std::uint32_t index = given.empty() ? static_cast<std::uint32_t>(i) : given[i];
         if (index >= count)
             its.fail("indices[" + std::to_string(i) + "]", "less than " + std::to_string(count), std::to_string(index));
-        // A line has its first end twice, a point its vertex three times.
-        all.insert(all.end(), i % corners == 0 ? 4 - corners : 1, index);
+        corner[i % corners] = index;
+        if ((i + 1) % corners == 0) rasterizer::append_primitive(all, {corner.data(), corners});
     }
     return all;
 }

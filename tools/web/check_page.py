@@ -154,7 +154,7 @@ def main():
     driver.set_script_timeout(300)
     page = Page(driver, strata)
     try:
-        page.expect("at most 3 MiB", size <= 3 << 20, True)
+        page.expect("at most 3.25 MiB", size <= 13 << 18, True)
         driver.get(serve(folder))
         page.wait()
         page.check_controls()

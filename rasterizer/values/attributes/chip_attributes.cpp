@@ -48,6 +48,14 @@ using Corners3 = std::array<float, 3>;
     }
     return is_done;
 }
+// A smooth polygon's colours beyond its sides stay within those of its corners.
+void limit_to_corners(const ColorLanes& colors, int count) noexcept {
+    for (std::size_t c = 0; c < color_channels; ++c) {
+        const auto [least, most] = std::minmax_element(colors.codes[c].begin(), colors.codes[c].end());
+        const float from = static_cast<float>(*least) / 255.0f, to = static_cast<float>(*most) / 255.0f;
+        for (int i = 0; i < count; ++i) colors.out[c][i] = std::clamp(colors.out[c][i], from, to);
+    }
+}
 // A smooth line's colours beyond its ends are those of the ends.
 [[nodiscard]] EdgeValues between_ends(const EdgeValues& e, std::int64_t area) noexcept {
     const std::int64_t second = std::clamp(e[2], std::int64_t{0}, area);
@@ -76,18 +84,14 @@ void fill_chip_colors(const ChipKernels* kernels, const TriangleFragments& f, co
     }
     const ColorWeights weights{w_of(triangle), inverse_w, lanes.edges->area(), rules.hypothesis,
                                hypothesis.perspective_color};
-    const bool is_line = triangle.record.shape() == Shape::line;
+    const Shape shape = triangle.record.shape();
     for (int i = 0; i < lanes.count; ++i) {
         const EdgeValues e = lanes.edge_values(i);
-        const std::array<std::int32_t, 3> w = weights.at(is_line ? between_ends(e, lanes.edges->area()) : e);
-        for (std::size_t c = 0; c < color_channels; ++c) {
-            const auto& codes = colors.codes[c];
-            const auto [least, most] = std::minmax({codes[0], codes[1], codes[2]});
-            // Beyond a smooth polygon's sides, within the corners' colours.
-            colors.out[c][i] = std::clamp(weighted_color(w, codes), static_cast<float>(least) / 255.0f,
-                                          static_cast<float>(most) / 255.0f);
-        }
+        const std::array<std::int32_t, 3> w =
+            weights.at(shape == Shape::line ? between_ends(e, lanes.edges->area()) : e);
+        for (std::size_t c = 0; c < color_channels; ++c) colors.out[c][i] = weighted_color(w, colors.codes[c]);
     }
+    if (shape == Shape::polygon) limit_to_corners(colors, lanes.count);
 }
 
 void fill_chip_coordinates(const ChipKernels* kernels, const DrawnTriangle& triangle, const TriangleLanes& lanes,

@@ -5,37 +5,15 @@
 #include <catch2/catch.hpp>
 
 #include "tests/rasterizer/lines.h"
-#include "tests/rasterizer/rational.h"
 
 namespace {
 
 using namespace strata::rasterizer;
 
-const RasterRules chip_lines{.subpixel_bits = 4,
-                             .snap = Snap::toward_zero,
-                             .guard_band_px = 524288,
-                             .lines = LineRule::band,
-                             .points = PointRule::reciprocal};
-
-// Rule 2: `w` eighths of a pixel.
 PixelSet band_model(const RandomLine& line, int w) {
-    const auto &a = line.a, &b = line.b;
-    const Integer dx = b.x - a.x, dy = b.y - a.y, mx = std::max(abs(dx), abs(dy)), mn = std::min(abs(dx), abs(dy));
-    if (w == 0 || mx == 0) return {};
-    const int h = (w + 15) / 16;
-    const auto pixel = [](int v) { return floor(Rational{v, 16}).convert_to<int>(); };
-    // A side with inward normal (nx, ny) and value `v` at the pixel.
-    const auto is_in = [](const Integer& v, const Integer& nx, const Integer& ny) {
-        return v > 0 || (v == 0 && (nx < 0 || (nx == 0 && ny > 0)));
-    };
-    return pixels_where([&](int x, int y) {
-        const Integer px = 16 * x + 8 - a.x, py = 16 * y + 8 - a.y;
-        const Integer e = dx * py - dy * px, t = dx * px + dy * py, width = w * (2 * mx + mn);
-        return is_in(width + 2 * e, -dy, dx) && is_in(width - 2 * e, dy, -dx) && is_in(t, dx, dy) &&
-               is_in(dx * dx + dy * dy - t, -dx, -dy) && x >= pixel(std::min(a.x, b.x)) - h &&
-               x <= pixel(std::max(a.x, b.x)) + h && y >= pixel(std::min(a.y, b.y)) - h &&
-               y <= pixel(std::max(a.y, b.y)) + h;
-    });
+    const BandModel band{line, w};
+    return pixels_where(
+        [&](int x, int y) { return band.has_in_box(x, y) && band.has_within_sides(16 * x + 8, 16 * y + 8); });
 }
 
 // Rule 3: walks the columns (rows).
