@@ -69,11 +69,13 @@ set(strata_scenes_sources
   procedural/hard_cases/samples.cpp
   procedural/hard_cases/slivers.cpp
   procedural/parameters.cpp
+  procedural/hair.cpp
   procedural/plane_stack.cpp
   procedural/procedural.cpp
   procedural/random_soup.cpp
   procedural/shadow_demo.cpp
   procedural/showroom.cpp
+  procedural/splats.cpp
   procedural/teapot.cpp
   procedural/volume_beam.cpp
   procedural/wireframe.cpp)

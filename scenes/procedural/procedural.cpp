@@ -12,12 +12,14 @@
 #include "scenes/nearest_name.h"
 #include "scenes/packs/pack_scene.h"
 #include "scenes/packs/plain_triangles.h"
+#include "scenes/procedural/hair.h"
 #include "scenes/procedural/hard_cases/hard_case.h"
 #include "scenes/procedural/parameters.h"
 #include "scenes/procedural/plane_stack.h"
 #include "scenes/procedural/random_soup.h"
 #include "scenes/procedural/shadow_demo.h"
 #include "scenes/procedural/showroom.h"
+#include "scenes/procedural/splats.h"
 #include "scenes/procedural/teapot.h"
 #include "scenes/procedural/volume_beam.h"
 #include "scenes/procedural/wireframe.h"
@@ -88,6 +90,23 @@ Scene wireframe(const std::string& spec, const SceneOptions& options) {
     return make_wireframe(options, static_cast<int>(parameters.integer("tessellation", 1, 64, 4)));
 }
 
+// A segment has three indices and a vertex, which is about a triangle.
+Scene hair(const std::string& spec, const SceneOptions& options) {
+    const Parameters parameters{spec, Keys{"strands", "segments", "seed"}};
+    const Hair hair{.seed = parameters.integer("seed", 0, UINT64_MAX, 1),
+                    .strands = static_cast<int>(parameters.integer("strands", 1, 1'000'000, 1000)),
+                    .segments = static_cast<int>(parameters.integer("segments", 1, 64, 8))};
+    check_triangles(spec, static_cast<std::uint64_t>(hair.strands) * static_cast<std::uint64_t>(hair.segments));
+    return make_hair(options, hair);
+}
+
+Scene splats(const std::string& spec, const SceneOptions& options) {
+    const Parameters parameters{spec, Keys{"points", "seed"}};
+    const auto points = static_cast<std::uint32_t>(parameters.integer("points", 1, 10'000'000, 10'000));
+    check_triangles(spec, points);
+    return make_splats(options, parameters.integer("seed", 0, UINT64_MAX, 1), points);
+}
+
 // The first case is the default.
 Scene hard_case(const std::string& spec, const SceneOptions& options) {
     const Parameters parameters{spec, Keys{"case"}};
@@ -101,9 +120,10 @@ struct SceneMaker {
     std::string_view name;
     Scene (*make)(const std::string& spec, const SceneOptions& options);
 };
-constexpr SceneMaker makers[] = {{"teapot", teapot},       {"volume-beam", volume_beam}, {"random", random_soup},
-                                 {"planes", plane_stack},  {"shadow-demo", shadow_demo}, {"showroom", showroom},
-                                 {"wireframe", wireframe}, {"hard", hard_case}};
+constexpr SceneMaker makers[] = {
+    {"teapot", teapot},           {"volume-beam", volume_beam}, {"random", random_soup},  {"planes", plane_stack},
+    {"shadow-demo", shadow_demo}, {"showroom", showroom},       {"wireframe", wireframe}, {"hair", hair},
+    {"splats", splats},           {"hard", hard_case}};
 
 Keys names() {
     Keys result;
@@ -140,6 +160,12 @@ const std::vector<ProceduralScene>& procedural_scenes() {
          "one of everything that a renderer can get wrong, made for 64x64 pixels: strata diagnose looks at it"},
         {"wireframe", "tessellation=N",
          "a teapot of glass with the sides of its cells as lines; N x N cells a patch (1 to 64, default 4)"},
+        {"hair", "strands=N,segments=K,seed=S",
+         "N strands of K lines each on a head, tens of layers deep (1 to 1000000, default 1000; 1 to 64, default 8; "
+         "seed default 1)"},
+        {"splats", "points=N,seed=S",
+         "a teapot as N points with a soft round texture, for --point-sprites and --point-size (1 to 10000000, default "
+         "10000; seed default 1)"},
         {"hard", "case=NAME",
          "a small scene on which rasterizers and peels go wrong, seen as it is meant to be unless a camera is named "
          "(strata hard-cases --list names them)"},

@@ -85,7 +85,7 @@ TEST_CASE("every fault of a scene name gives one error message with the nearest 
           "teapt: scene: expected a .gltf, .glb, .obj, .ply, .stl or .off file, a pack's folder, triangles in .npy or "
           ".json, or one of teapot, "
           "volume-beam, random, planes, shadow-demo, "
-          "showroom, wireframe, hard, found 'teapt' (did you mean 'teapot'?)");
+          "showroom, wireframe, hair, splats, hard, found 'teapt' (did you mean 'teapot'?)");
     CHECK_THAT(message("xyz"), Catch::EndsWith("found 'xyz'"));
     CHECK(message("volume-beam:slice=3") ==
           "volume-beam:slice=3: parameters: expected one of slices, order, found 'slice' (did you mean 'slices'?)");

@@ -45,7 +45,7 @@ TEST_CASE("a wrong argument gives exit status 2 and one error message with the e
          "strata: teapt: scene: expected a .gltf, .glb, .obj, .ply, .stl or .off file, a pack's folder, triangles in "
          ".npy or .json, or one of "
          "teapot, volume-beam, random, planes, "
-         "shadow-demo, showroom, wireframe, hard, found 'teapt' "
+         "shadow-demo, showroom, wireframe, hair, splats, hard, found 'teapt' "
          "(did you mean 'teapot'?)"},
         {{"render", "teapot", "--depth-format", "d25"},
          "strata: --depth-format: expected d16, d24, d32f, d16f or d24f, found 'd25' (did you mean 'd24'?)"},
@@ -152,7 +152,7 @@ TEST_CASE("a wrong argument gives exit status 2 and one error message with the e
          "strata: WHAT: expected algorithms, profiles or scenes, found 'profile' (did you mean 'profiles'?)"},
         {{"list", "scenes", "teapt"},
          "strata: NAME: expected a built-in scene (teapot, volume-beam, random, planes, "
-         "shadow-demo, showroom, wireframe or hard), found 'teapt' (did you mean 'teapot'?)"},
+         "shadow-demo, showroom, wireframe, hair, splats or hard), found 'teapt' (did you mean 'teapot'?)"},
         {{"invariance", "teapot"}, "strata: -o is missing: the folder for the results"},
         {{"invariance", "teapot", "-o", ""}, "strata: -o needs a folder"},
         {{"list", "profiles", "ideel"},
