@@ -65,8 +65,7 @@ struct TruncatedWeight {
 // The vertex whose weight is 1 - (the two others) for colours and texture coordinates: the one with the largest
 // exponent; ties {0,1} -> v0, {0,2} -> v2, {1,2} -> v1, all -> v2 (attributes.md 2.3).
 [[nodiscard]] constexpr std::size_t remainder_vertex(const std::array<double, 3>& b) noexcept {
-    const auto exponent = [&](std::size_t i) { return std::bit_cast<std::uint64_t>(b[i]) >> 52; };
-    const auto k0 = exponent(0), k1 = exponent(1), k2 = exponent(2);
+    const int k0 = exponent_of(b[0]), k1 = exponent_of(b[1]), k2 = exponent_of(b[2]);
     if (k2 >= k0 && k2 > k1) return 2;  // alone, or tied with v0
     if (k1 > k0) return 1;              // alone, or tied with v2
     if (k0 > k2) return 0;              // alone, or tied with v1

@@ -65,7 +65,7 @@ TEST_CASE("weights by a truncated reciprocal are those of rationals for areas an
     CHECK(large > 500);
 }
 
-TEST_CASE("perspective weights use the magnitudes of edge values and of w regardless of their signs") {
+TEST_CASE("perspective weights have the sign of the edge value times w") {
     Random random{73};
     std::size_t wrong = 0;
     for (int i = 0; i < 500; ++i) {
@@ -74,10 +74,18 @@ TEST_CASE("perspective weights use the magnitudes of edge values and of w regard
         for (std::size_t k = 0; k < 3; ++k) {
             w[k] = random_float(random, 0.25f, 9);
             e[k] = random_int(random, 1, 1 << 28);
-            turned_w[k] = random_int(random, 0, 1) == 0 ? w[k] : -w[k];
-            turned_e[k] = random_int(random, 0, 1) == 0 ? e[k] : -e[k];
+            const bool is_turned = random_int(random, 0, 1) != 0;
+            turned_w[k] = is_turned ? -w[k] : w[k];
+            turned_e[k] = is_turned ? -e[k] : e[k];
         }
         wrong += PerspectiveWeights{w, {}}.at(e) != PerspectiveWeights{turned_w, {}}.at(turned_e) ? 1 : 0;
+        // Beyond a side: that side's weight is negative, and the sum stays 1.
+        const auto k = static_cast<std::size_t>(i % 3);
+        e[k] = -(*std::ranges::min_element(e) / 8 + 1);
+        w[k] = 9;
+        const std::array<double, 3> b = PerspectiveWeights{w, {}}.truncated_at(e);
+        wrong +=
+            b[k] < 0 && b[(k + 1) % 3] > 0 && b[(k + 2) % 3] > 0 && std::abs(b[0] + b[1] + b[2] - 1) < 1e-6 ? 0 : 1;
     }
     CHECK(wrong == 0);
 }
