@@ -70,8 +70,8 @@ struct SceneOptions {
 
 // `spec` is a path to a .gltf, .glb, .obj, .ply, .stl or .off file or to a pack, "-" for a glTF file from standard
 // input (which is read once), or a procedural scene: "teapot", "volume-beam:slices=N[,order=far|near]",
-// "random:seed=S,triangles=N", "shadow-demo", "showroom", "wireframe:tessellation=N", "hair:strands=N", "splats:points=N", "hard:case=NAME". Throws
-// InputError for any other or malformed text.
+// "random:seed=S,triangles=N", "shadow-demo", "showroom", "wireframe:tessellation=N", "hair:strands=N",
+// "splats:points=N", "hard:case=NAME". Throws InputError for any other or malformed text.
 [[nodiscard]] Scene load_scene(const std::string& spec, const SceneOptions& options);
 
 // The two parts of load_scene, and the test that selects one. load_gltf reads every path as a glTF file, whatever its

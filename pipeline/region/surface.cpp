@@ -73,6 +73,7 @@ PreparedDraw prepared(const DeviceProfile& profile, const SurfaceLayout& layout,
     raster.range_culls_triangles = state.range_culls_triangles;
     raster.line_width_px = state.line_width_px;
     raster.point_size_px = state.point_size_px;
+    raster.point_sprites = state.point_sprites;
     raster.line_style = state.line_style;
     raster.smooth_polygons = state.smooth_polygons;
     raster.polygon_stipple = state.polygon_stipple;

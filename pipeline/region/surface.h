@@ -40,6 +40,7 @@ struct DrawState {
     rasterizer::PolygonOffset polygon_offset{};
     std::optional<rasterizer::DepthPath> depth_path{};  // empty: the profile's
     float line_width_px = 1.0f, point_size_px = 1.0f;
+    bool point_sprites = false;
     rasterizer::LineStyle line_style = rasterizer::LineStyle::band;
     bool smooth_polygons = false;
     std::optional<rasterizer::PolygonStipple> polygon_stipple{};

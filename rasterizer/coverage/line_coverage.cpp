@@ -11,12 +11,6 @@
 namespace strata::rasterizer {
 namespace {
 
-// NV2A's registers of widths and sizes: eighths of a pixel, nine bits.
-constexpr int greatest_register = 511;
-[[nodiscard]] int eighths(float px) noexcept {
-    return static_cast<int>(std::clamp(px * 8.0f, 0.0f, static_cast<float>(greatest_register)));
-}
-
 // The first pixel whose centre is at least c, and one past the last whose centre is at most c.
 [[nodiscard]] constexpr int first_centre(std::int64_t c, int bits) noexcept {
     return static_cast<int>((c + (1 << (bits - 1)) - 1) >> bits);
@@ -28,7 +22,7 @@ constexpr int greatest_register = 511;
 // A rectangle along the line. Half its width is the register times an estimate of the line's length, max + min / 2,
 // over the length; right and upper sides own their ties.
 [[nodiscard]] ShapeCoverage band(SubpixelPoint a, SubpixelPoint b, const RasterState& state, int bits) noexcept {
-    const int width = eighths(state.line_width_px);
+    const int width = register_of_size(state.line_width_px);
     const std::int64_t dx = std::int64_t{b.x} - a.x, dy = std::int64_t{b.y} - a.y;
     if (width == 0 || (dx == 0 && dy == 0)) return {};
     const std::int64_t most = std::max(magnitude_of(dx), magnitude_of(dy)),
@@ -158,8 +152,10 @@ Rect point_box(SubpixelPoint p, const RasterState& state, const RasterRules& rul
     const int bits = rules.subpixel_bits;
     std::int64_t before = 0, behind = 0;
     if (rules.points == PointRule::reciprocal) {
-        const int side = eighths(state.point_size_px);
+        const int side = register_of_size(state.point_size_px);
         if (side == 0) return {p.x >> bits, p.y >> bits, (p.x >> bits) + 1, (p.y >> bits) + 1};
+        if (state.line_style != LineStyle::band && side == 8)
+            return {p.x >> bits, (p.y - 1) >> bits, (p.x >> bits) + 1, ((p.y - 1) >> bits) + 1};
         before = behind = std::int64_t{side} << (bits - 4);
         behind -= std::has_single_bit(static_cast<unsigned>(side)) ? 1 : 0;
     } else {

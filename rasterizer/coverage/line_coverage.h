@@ -22,6 +22,11 @@ struct HalfPlane {
     }
 };
 
+// NV2A's registers of widths and sizes: eighths of a pixel, cut, nine bits.
+[[nodiscard]] constexpr int register_of_size(float px) noexcept {
+    return static_cast<int>(px < 0.0f ? 0.0f : px < 511.0f / 8.0f ? px * 8.0f : 511.0f);
+}
+
 struct ShapeCoverage {
     std::array<HalfPlane, 4> side;  // the default covers everything
     Rect box{};                     // empty: the shape covers nothing

@@ -112,6 +112,7 @@ struct RasterState {
     FrontFace front_face = FrontFace::counter_clockwise;
     PolygonOffset polygon_offset;  // of triangles
     float line_width_px = 1.0f, point_size_px = 1.0f;
+    bool point_sprites = false;  // GL_POINT_SPRITE: a point's texture coordinates are those of its square
     LineStyle line_style = LineStyle::band;
     bool smooth_polygons = false;  // NV2A's POLY_SMOOTH: as LineStyle::smooth, for triangles
     std::optional<PolygonStipple> polygon_stipple{};

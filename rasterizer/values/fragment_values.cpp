@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "rasterizer/rules/depth_key.h"
+#include "rasterizer/values/attributes/point_sprite.h"
 #include "rasterizer/values/chip_lanes.h"
 #include "rasterizer/values/lane_kernels.h"
 
@@ -57,6 +58,8 @@ int FragmentValues::fill(const DrawnTriangle& triangle, int first, FragmentBatch
     if (const auto* planes = std::get_if<PlaneAttributes>(&attributes_)) fallbacks += planes->fill(f);
     if (const auto* stepped = std::get_if<SteppedAttributes>(&attributes_)) stepped->fill(f);
     if (units_) fallbacks += units_->fill(f);
+    if (needs_.texcoord && triangle.geometry.state.point_sprites && triangle.record.shape() == Shape::point)
+        fill_sprite_coordinates(f);
     if (needs_.facing) std::fill_n(&batch.front_facing[f.first], f.count(), std::uint8_t{triangle.record.front_facing});
     return fallbacks;
 }

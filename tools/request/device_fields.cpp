@@ -197,6 +197,8 @@ std::vector<OptionField> depth_fields() {
         number<&PictureRequest::render, &RenderOptions::raster, &RasterState::point_size_px>(
             depth, {"point-size", "PX", "glPointSize: the sides of a point in pixels (default 1)", size_expected},
             to_size_px),
+        flag<&PictureRequest::render, &RenderOptions::raster, &RasterState::point_sprites>(
+            depth, "point-sprites", "GL_POINT_SPRITE: a texture covers each point's square"),
         field<&PictureRequest::render, &RenderOptions::raster, &RasterState::scissor>(
             depth,
             {"scissor", "X,Y,W,H",

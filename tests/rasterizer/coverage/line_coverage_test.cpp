@@ -99,6 +99,24 @@ TEST_CASE("points of every size cover the pixels of the chip's coordinates") {
     CHECK(wrong == 0);
 }
 
+TEST_CASE(
+    "beside thin and smooth lines a point of one pixel is that of its vertex, on a border the right and upper one") {
+    Random random{5};
+    RasterState state = line_state();
+    for (const LineStyle style : {LineStyle::thin, LineStyle::smooth}) {
+        state.line_style = style;
+        for (int i = 0; i < 400; ++i) {
+            SubpixelPoint p{random_int(random, 1, 16 * line_window - 1), random_int(random, 1, 16 * line_window)};
+            if (i % 2 == 0) p = {p.x / 16 * 16, (p.y + 15) / 16 * 16};
+            const PixelSet drawn = pixels_of(
+                draw(shapes({vertex_at(p, 4)}, Primitive::points, state, chip_lines), {}, coverage_only).fragments);
+            const int x = floor(Rational{p.x, 16}).convert_to<int>(),
+                      y = -floor(-Rational{p.y, 16}).convert_to<int>() - 1;
+            CHECK(drawn == PixelSet{{x, y}});
+        }
+    }
+}
+
 TEST_CASE("square points cover the centres within half their size, with the left and upper side") {
     Random random{4};
     const RasterRules rules{.points = PointRule::square};

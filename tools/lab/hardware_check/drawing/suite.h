@@ -40,6 +40,7 @@ Drawing draw_material_color_source(std::string_view name, const pipeline::Device
 Drawing draw_pixel_shader(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_pixel_shader_with(std::string_view name, const pipeline::DeviceProfile& profile,
                                const std::string& textures);
+Drawing draw_point_params(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_point_size(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_set_vertex_data(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_shade_model(std::string_view name, const pipeline::DeviceProfile& profile);
@@ -47,6 +48,7 @@ Drawing draw_smoothing_control(std::string_view name, const pipeline::DeviceProf
 Drawing draw_specular(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_stencil(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_stencil_func(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_stipple(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_surface_clip(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_texture_perspective(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_texture_shadow_comparator(std::string_view name, const pipeline::DeviceProfile& profile);

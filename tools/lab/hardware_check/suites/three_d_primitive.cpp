@@ -1,6 +1,7 @@
 // Suite 3D_primitive: <primitive>[-inlinebuf|-inlinearrays|-inlineelements][-ls][-ps]: smooth primitives with their own
 // z, by four commands that draw alike. With -ls (smooth lines) or -ps (smooth polygons) the surface has two samples per
-// pixel. pipeline/reference/fragment-stages.md 13.1, rasterizer/reference/chip-geometry.md 5.8.
+// pixel, and what is smooth is shown over older frames of the suite. pipeline/reference/fragment-stages.md 13.1,
+// rasterizer/reference/chip-geometry.md 5.8, lines-and-points.md 3.
 #include <vector>
 
 #include "tools/lab/hardware_check/drawing/fixed_pipeline.h"
@@ -109,7 +110,8 @@ std::vector<PointPrimitive> primitives() {
 
 // The primitive at the samples that are `shift` pixels to the left and above the pixels' centres. The test's lines are
 // thin unless they are smooth.
-pipeline::Image at_samples(const PointPrimitive& primitive, const pipeline::DeviceProfile& profile, float shift) {
+pipeline::Image at_samples(const PointPrimitive& primitive, const pipeline::DeviceProfile& profile, float shift,
+                           const pipeline::DrawState& state = {.line_style = rasterizer::LineStyle::thin}) {
     constexpr double units = 65535;
     std::vector<ClipVertex> vertices;
     for (const ColoredPoint& p : primitive.points) {
@@ -121,9 +123,24 @@ pipeline::Image at_samples(const PointPrimitive& primitive, const pipeline::Devi
     pipeline::Surface surface{profile, {.depth = pipeline::DepthFormat::d16}};
     surface.clear_color(unpack(0xff303030));
     surface.clear_depth(0xffff);
-    surface.draw({.depth = {.enabled = true}, .line_style = rasterizer::LineStyle::thin}, std::move(draw.soup),
-                 draw.primitive);
+    pipeline::DrawState tested = state;
+    tested.depth.enabled = true;
+    surface.draw(tested, std::move(draw.soup), draw.primitive);
     return surface.color();
+}
+
+// The smooth primitive is blended into its surface, with alpha, and the surface's centres are blended over what older
+// frames left: the picture without smoothing, and `frames` such pictures.
+pipeline::Image smooth_over_older(const PointPrimitive& primitive, const pipeline::DeviceProfile& profile, int frames) {
+    const pipeline::Texture surface =
+        as_texture(at_samples(primitive, profile, 0,
+                              {.blend = pipeline::blend_mode::over,
+                               .line_style = rasterizer::LineStyle::smooth,
+                               .smooth_polygons = primitive.topology > Topology::line_strip}));
+    pipeline::Surface window{profile, {}};
+    place(window, as_texture(at_samples(primitive, profile, 0)), 0, 0, {});
+    for (int i = 0; i < frames; ++i) place(window, surface, 0, 0, {.blend = pipeline::blend_mode::over});
+    return window.color();
 }
 
 // A surface of two samples per pixel as a texture of twice the width, whose columns are corners and centres
@@ -153,18 +170,27 @@ pipeline::Image shown(const pipeline::Texture& texture, const pipeline::DevicePr
 
 Drawing draw_three_d_primitive(std::string_view name, const pipeline::DeviceProfile& profile) {
     const bool smooth_polygons = take_last(name, "-ps"), smooth_lines = take_last(name, "-ls");
+    bool is_inline = false;
     for (const std::string_view command : {"-inlinebuf", "-inlinearrays", "-inlineelements"})
-        if (take_last(name, command)) break;
+        if (take_last(name, command)) {
+            is_inline = true;
+            break;
+        }
     for (const PointPrimitive& primitive : primitives()) {
         if (primitive.name != name) continue;
         if (primitive.topology <= Topology::line_strip) {
             if (smooth_lines && primitive.topology != Topology::points)
-                return {std::nullopt, "smooth lines are shown over what an older frame left"};
+                return {SuitePicture{.image = smooth_over_older(primitive, profile, smooth_polygons ? 2 : 3)}, {}};
             return {SuitePicture{.image = at_samples(primitive, profile, 0)}, {}};
         }
-        if (smooth_polygons) return {std::nullopt, "the coverage of smooth polygons is not modelled"};
         // A pixel where 256 times a weight is close to an integer differs by one unit, as in Shade_model.
         constexpr Bound near_integer{2, 1};
+        if (smooth_polygons) {
+            // Three pixels of TriStrip, where its triangles fold, are not explained.
+            const Bound bound = name == "TriStrip" ? Bound{3, 103} : near_integer;
+            const int frames = is_inline ? 1 : smooth_lines ? 3 : 2;
+            return {SuitePicture{.image = smooth_over_older(primitive, profile, frames), .bound = bound}, {}};
+        }
         const pipeline::Image centres = at_samples(primitive, profile, 0);
         if (!smooth_lines) return {SuitePicture{.image = centres, .bound = near_integer}, {}};
         const pipeline::Texture texture = side_by_side(at_samples(primitive, profile, 0.5f), centres);
