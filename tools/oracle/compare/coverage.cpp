@@ -16,17 +16,22 @@ namespace {
 
 using Color = std::vector<std::uint32_t>;
 
-Color color_at(const TargetImage& target, std::size_t pixel) {
+std::span<const std::uint32_t> codes_at(const TargetImage& target, std::size_t pixel) {
     const auto channels = static_cast<std::size_t>(target.channels);
-    const auto first = target.codes.begin() + static_cast<std::ptrdiff_t>(pixel * channels);
-    return {first, first + static_cast<std::ptrdiff_t>(channels)};
+    return {target.codes.data() + pixel * channels, channels};
 }
 
 // The commonest colour of these pixels, if at least half of them have it.
 template <class Pixels>
 std::optional<Color> commonest(const TargetImage& target, const Pixels& pixels) {
     std::map<Color, std::size_t> counts;
-    for (const std::size_t pixel : pixels) ++counts[color_at(target, pixel)];
+    auto last = counts.end();  // neighbours are often equal
+    for (const std::size_t pixel : pixels) {
+        const auto codes = codes_at(target, pixel);
+        if (last == counts.end() || !std::ranges::equal(last->first, codes))
+            last = counts.try_emplace(Color(codes.begin(), codes.end())).first;
+        ++last->second;
+    }
     const auto most = std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; });
     if (most == counts.end() || 2 * most->second < pixels.size()) return std::nullopt;
     return most->first;
@@ -44,7 +49,7 @@ std::vector<std::size_t> edge_of(const TargetImage& target) {
 
 Mask other_than(const TargetImage& target, const Color& background) {
     Mask mask(target.pixels());
-    for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = color_at(target, i) != background;
+    for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = !std::ranges::equal(codes_at(target, i), background);
     return mask;
 }
 

@@ -107,6 +107,7 @@ pipeline::Image as_shown(const Picture& picture, const std::string& name) {
     const TargetImage& target = *best;
     pipeline::Image image{pipeline::Format::rgba8, target.width, target.height};
     const auto code = [&](std::size_t pixel, int c) -> std::uint32_t {
+        if (target.code == Code::unorm8 && target.meaning != Meaning::depth) return target.at(pixel, c).word;
         const double v = target.code == Code::integer ? static_cast<double>(target.at(pixel, c).word % 256) / 255
                                                       : target.value_at(pixel, c);
         return nearest(Code::unorm8, target.meaning == Meaning::depth ? 1.0 - v : v);
@@ -115,7 +116,8 @@ pipeline::Image as_shown(const Picture& picture, const std::string& name) {
         for (int x = 0; x < target.width; ++x) {
             const std::size_t i = image.index(x, y) / 4;
             const int last = target.channels - 1;
-            if (target.channels == 2 && target.code != Code::integer) {  // min-max depths: (-near, far)
+            if (target.channels == 2 && !target.is_grey &&
+                target.code != Code::integer) {  // min-max depths: (-near, far)
                 const double near = -target.value_at(i, 0), far = target.value_at(i, 1);
                 const bool is_cleared = far < near;  // nothing is left to peel: black
                 put(image, x, y,

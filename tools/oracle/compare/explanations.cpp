@@ -3,9 +3,9 @@
 #include "tools/oracle/compare/explanations.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <optional>
 
 #include "scenes/numbers/srgb_encode.h"
@@ -79,6 +79,22 @@ std::vector<PictureChange> of_places() {
     return all;
 }
 
+// A function of colour values, of 8-bit codes from a table: powers take longer than the rest of a comparison.
+class TabledFunction {
+  public:
+    explicit TabledFunction(float (*function)(float)) : function_{function} {
+        for (std::uint32_t code = 0; code < 256; ++code) of_bytes_[code] = function(byte_value(code));
+    }
+    [[nodiscard]] double of(const TargetImage& t, double v) const {
+        return t.code == Code::unorm8 ? of_bytes_[nearest(Code::unorm8, v)] : function_(static_cast<float>(v));
+    }
+
+  private:
+    static float byte_value(std::uint32_t code) { return static_cast<float>(value(Code::unorm8, code)); }
+    float (*function_)(float);
+    std::array<float, 256> of_bytes_{};
+};
+
 double alpha_of(const TargetImage& t, std::size_t pixel) { return t.channels == 4 ? t.value_at(pixel, 3) : 1.0; }
 
 // The same scene with values stored by another convention.
@@ -89,6 +105,7 @@ std::vector<PictureChange> of_values() {
             return c == 3 ? v : of_channel(t, pixel, v);
         };
     };
+    const TabledFunction encoded{scenes::encode_srgb}, decoded{scenes::decode_srgb};
     return {
         {"premultiplied",
          "the reference's colours times their alpha",
@@ -108,12 +125,12 @@ std::vector<PictureChange> of_values() {
          "the reference's colours encoded to sRGB",
          Meaning::color,
          {},
-         color([](const TargetImage&, std::size_t, double v) { return scenes::encode_srgb(static_cast<float>(v)); })},
+         color([encoded](const TargetImage& t, std::size_t, double v) { return encoded.of(t, v); })},
         {"decoded",
          "the reference's colours decoded from sRGB to linear light",
          Meaning::color,
          {},
-         color([](const TargetImage&, std::size_t, double v) { return scenes::decode_srgb(static_cast<float>(v)); })},
+         color([decoded](const TargetImage& t, std::size_t, double v) { return decoded.of(t, v); })},
         {"red_for_blue",
          "the reference with red and blue exchanged",
          Meaning::color,
@@ -177,15 +194,55 @@ bool shows_change(const TargetPair& pair, std::size_t pixel) {
     return is_changed;
 }
 
-// `evidence`: explained pixels whose difference is more than rounding.
-void count(const PictureChange& mistake, const TargetPair& pair, Explanation& sum, std::uint64_t& evidence) {
-    for (std::size_t pixel = 0; pixel < pair.reference->pixels(); ++pixel) {
-        const bool agreed = agrees(mistake, pair, pixel), equal = pair.is_equal_at(pixel);
-        sum.of += equal ? 0 : 1;
-        sum.explained += !equal && agreed ? 1 : 0;
-        evidence += !equal && agreed && (mistake.moved || shows_change(pair, pixel)) ? 1 : 0;
-        sum.contradicted += equal && !agreed ? 1 : 0;
-    }
+// The pixels of a pair, apart by whether they are equal.
+struct SplitPixels {
+    const TargetPair* pair = nullptr;
+    std::vector<std::size_t> differing{}, equal{};
+};
+
+SplitPixels split_pixels(const TargetPair& pair) {
+    SplitPixels split{.pair = &pair};
+    for (std::size_t pixel = 0; pixel < pair.reference->pixels(); ++pixel)
+        (pair.is_equal_at(pixel) ? split.equal : split.differing).push_back(pixel);
+    return split;
+}
+
+// Calls act(change, pair) where a change concerns the pair's meaning, until it returns false.
+template <class Act>
+bool for_each_pair(std::span<const PictureChange> changes, const std::vector<SplitPixels>& pairs, const Act& act) {
+    for (const PictureChange& change : changes)
+        for (const SplitPixels& split : pairs)
+            if (split.pair->reference->meaning == change.meaning && !act(change, split)) return false;
+    return true;
+}
+
+// The changes have one name: a movement affects colours and depths alike, and one entry sums both. Empty if it explains
+// less than half of the differing pixels, or no more than it contradicts. Most mistakes are out after some of the
+// differing pixels; the equal ones are looked at for the others only.
+std::optional<Explanation> explanation(std::span<const PictureChange> changes, const std::vector<SplitPixels>& pairs) {
+    Explanation sum{changes[0].name, changes[0].description};
+    for_each_pair(changes, pairs, [&](const PictureChange&, const SplitPixels& split) {
+        sum.of += split.differing.size();
+        return true;
+    });
+    std::uint64_t missed = 0, evidence = 0;  // evidence: explained pixels whose difference is more than rounding
+    const bool explains = for_each_pair(changes, pairs, [&](const PictureChange& change, const SplitPixels& split) {
+        for (const std::size_t pixel : split.differing)
+            if (agrees(change, *split.pair, pixel)) {
+                ++sum.explained;
+                evidence += change.moved || shows_change(*split.pair, pixel) ? 1 : 0;
+            } else if (2 * ++missed > sum.of) {
+                return false;
+            }
+        return true;
+    });
+    if (!explains || sum.explained == 0 || 2 * evidence < sum.explained) return std::nullopt;
+    const bool is_kept = for_each_pair(changes, pairs, [&](const PictureChange& change, const SplitPixels& split) {
+        for (const std::size_t pixel : split.equal)
+            if (!agrees(change, *split.pair, pixel) && ++sum.contradicted >= sum.explained) return false;
+        return true;
+    });
+    return is_kept ? std::optional{std::move(sum)} : std::nullopt;
 }
 
 }  // namespace
@@ -193,18 +250,14 @@ void count(const PictureChange& mistake, const TargetPair& pair, Explanation& su
 std::vector<Explanation> explanations(std::span<const TargetPair> pairs) {
     std::vector<PictureChange> mistakes = of_places();
     for (PictureChange& mistake : of_values()) mistakes.push_back(std::move(mistake));
+    std::vector<SplitPixels> split;
+    for (const TargetPair& pair : pairs) split.push_back(split_pixels(pair));
     std::vector<Explanation> found;
-    std::map<std::string, std::uint64_t> evidence;
-    for (const PictureChange& mistake : mistakes) {
-        // A movement affects colours and depths alike: one entry sums both.
-        if (found.empty() || found.back().mistake != mistake.name) found.push_back({mistake.name, mistake.description});
-        for (const TargetPair& pair : pairs)
-            if (pair.reference->meaning == mistake.meaning) count(mistake, pair, found.back(), evidence[mistake.name]);
+    for (std::size_t first = 0, last = 0; first < mistakes.size(); first = last) {
+        while (last < mistakes.size() && std::string_view(mistakes[last].name) == mistakes[first].name) ++last;
+        if (auto one = explanation(std::span{mistakes}.subspan(first, last - first), split))
+            found.push_back(*std::move(one));
     }
-    std::erase_if(found, [&](const Explanation& e) {
-        return 2 * evidence[e.mistake] < e.explained || e.explained == 0 || 2 * e.explained < e.of ||
-               e.explained <= e.contradicted;
-    });
     std::ranges::stable_sort(found, [](const Explanation& a, const Explanation& b) {
         const auto gain = [](const Explanation& e) {
             return static_cast<std::int64_t>(e.explained) - static_cast<std::int64_t>(e.contradicted);

@@ -22,8 +22,16 @@ struct TargetPair {
     const TargetImage* candidate = nullptr;
     [[nodiscard]] int channels() const noexcept { return reference->channels; }  // the candidate has the same number
     [[nodiscard]] bool is_equal_at(std::size_t pixel) const noexcept { return distance_at(pixel) == 0; }
+    // True if the pixel has the same words of one code type, which are equal.
+    [[nodiscard]] bool has_same_words(std::size_t pixel) const noexcept {
+        const auto first = static_cast<std::ptrdiff_t>(pixel * static_cast<std::size_t>(channels()));
+        return reference->code == candidate->code &&
+               std::equal(reference->codes.begin() + first, reference->codes.begin() + first + channels(),
+                          candidate->codes.begin() + first);
+    }
     // The distance of the worst channel.
     [[nodiscard]] std::uint32_t distance_at(std::size_t pixel) const noexcept {
+        if (has_same_words(pixel)) return 0;
         std::uint32_t worst = 0;
         for (int c = 0; c < channels(); ++c)
             worst = std::max(worst, distance(reference->at(pixel, c), candidate->at(pixel, c)));

@@ -22,6 +22,7 @@
 #include "tools/strata/command.h"
 #include "tools/strata/compare/compare_pages.h"
 #include "tools/strata/compare/compare_scene.h"
+#include "tools/strata/compare/folders.h"
 #include "tools/strata/compare/tolerances.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
@@ -44,7 +45,8 @@ struct CompareOptions {
     std::string algorithm;            // only for packs; empty: all algorithms
     std::string heat, side, junit, report;
     bool json = false, exact = false;
-    RunOptions run{};  // only if the reference is a scene
+    oracle::PictureNames names{};  // only of two folders
+    RunOptions run{};              // only if the reference is a scene
 };
 
 // True if the result may be a verdict (right or wrong apart from rounding): the reference is a scene or a pack, and
@@ -163,12 +165,32 @@ oracle::Picture reference_of(const CompareOptions& options) {
     return std::move(all[0].picture);
 }
 
+// Compares the pictures of two plain folders by their names.
+int compare_plain_folders(const CompareOptions& options) {
+    return compare_two_folders(
+        {.reference = options.reference,
+         .candidate = options.candidate,
+         .names = options.names,
+         .tolerances = options.tolerances,
+         .background = options.background,
+         .read_reference = [&](const std::string& path) { return oracle::read_picture(path, options.layout); },
+         .read_candidate =
+             [&](const std::string& path) {
+                 oracle::Picture picture = oracle::read_picture(path, options.layout);
+                 state_alpha(picture, options.alpha_form);
+                 return picture;
+             }},
+        {.junit = options.junit, .report = options.report, .json = options.json});
+}
+
 // Files are written first, so they exist once the text appears on standard output.
 int compared(const CompareOptions& options) {
     constexpr std::uint64_t bytes_of_a_comparison = 64;  // of a pixel, for two pictures and the maps
     scenes::expect_for_a_pixel(bytes_of_a_comparison);
     if (scenes::is_pack(options.reference) && std::filesystem::is_directory(options.candidate))
         return compare_folders(options);
+    if (!is_scene(options.reference) && are_folders(options.reference, options.candidate))
+        return compare_plain_folders(options);
     if (asks_for_verdict(options)) {
         scenes::expect_for_a_pixel(bytes_of_a_verdict(options.run.sampling.samples));
         oracle::Picture picture = oracle::read_picture(options.candidate, options.layout);
@@ -218,6 +240,22 @@ int compare(const CompareOptions& options) {
     }
 }
 
+// Rejects options of two folders of pictures elsewhere, and the others on them.
+void check_folders(const CLI::App& app, const CompareOptions& options) {
+    if (is_scene(options.reference) || !std::filesystem::is_directory(options.reference)) {
+        for (const char* const name : {"--names", "--baselines"})
+            if (app.count(name) > 0)
+                throw CLI::ValidationError(std::string(name) + " has no effect: no folders of pictures are compared");
+        return;
+    }
+    for (const char* const name : {"--heat", "--side"})
+        if (app.count(name) > 0)
+            throw CLI::ValidationError(std::string(name) +
+                                       " has no effect on folders of pictures: --report shows what differs");
+    if (options.layout && !options.names.reference)
+        throw CLI::ValidationError("--layout needs --names on folders: which files hold raw numbers");
+}
+
 // Rejects options of a scene if the reference is a picture, except --background, which then is the background of the
 // reference.
 void check_for_scene(const CLI::App& app, const std::vector<CLI::Option*>& of_pictures, CompareOptions& options) {
@@ -229,6 +267,7 @@ void check_for_scene(const CLI::App& app, const std::vector<CLI::Option*>& of_pi
     }
     const bool is_pack_of_folder =
         scenes::is_pack(options.reference) && std::filesystem::is_directory(options.candidate);
+    check_folders(app, options);
     if (is_scene(options.reference) && !is_pack_of_folder) return;
     std::vector<std::string> names;
     for (const CLI::Option* option : of_pictures)
@@ -247,6 +286,7 @@ void check_layout(const CompareOptions& options) {
                scenes::reader_of(file) == nullptr;
     };
     const bool reads_reference = !is_scene(options.reference);
+    if (!is_scene(options.reference) && std::filesystem::is_directory(options.reference)) return;
     if (options.layout && !is_raw(options.candidate) && !(reads_reference && is_raw(options.reference)))
         throw CLI::ValidationError("--layout has no effect: no file of raw numbers is compared");
 }
@@ -298,6 +338,7 @@ Command add_compare(CLI::App& root) {
          "a file name"});
     add_report_option(*app, options->report);
     app->add_flag("--json", options->json, "one JSON document instead of text");
+    add_folder_options(*app, options->names);
     add_memory_option(*app, options->run);
     const std::vector<CLI::Option*> of_pictures = app->get_options();
     add_options(*app, options->run, OptionGroup::reading);

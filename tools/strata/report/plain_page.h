@@ -47,6 +47,8 @@ class PlainPage {
     void table(const Table& table, const std::string& name);
     // An rgba8 picture. `text` is its alternative text for screen readers and its caption.
     void picture(const pipeline::Image& image, const std::string& text);
+    // The same of a PNG file's bytes.
+    void png_picture(const std::string& png, const std::string& text) { add_picture("image/png", png, text); }
     // The same at its own size on any screen width, for a picture that contains text.
     void picture_with_letters(const pipeline::Image& image, const std::string& text);
 

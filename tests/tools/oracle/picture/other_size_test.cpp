@@ -12,7 +12,7 @@ using namespace strata::test;
 
 namespace {
 
-constexpr int width = 6, height = 4;
+constexpr int own_width = 6, own_height = 4;
 
 Texel texel(int x, int y) {
     return {static_cast<std::uint32_t>(40 * x), static_cast<std::uint32_t>(60 * y),
@@ -24,7 +24,7 @@ TargetImage made(int w, int h, const std::function<Texel(int x, int y)>& of) {
 }
 
 std::string words_of(int w, int h, const std::function<Texel(int x, int y)>& of) {
-    return size_in_words(made(width, height, texel), made(w, h, of));
+    return size_in_words(made(own_width, own_height, texel), made(w, h, of));
 }
 
 }  // namespace
@@ -44,9 +44,9 @@ TEST_CASE("a scaled picture is told with its factor") {
 TEST_CASE("a transposed and a turned picture are told apart") {
     CHECK(words_of(4, 6, [](int x, int y) { return texel(y, x); }) == "4x6, the reference transposed");
     // The first row is the reference's first column from the lowest pixel on.
-    CHECK(words_of(4, 6, [](int x, int y) { return texel(y, height - 1 - x); }) ==
+    CHECK(words_of(4, 6, [](int x, int y) { return texel(y, own_height - 1 - x); }) ==
           "4x6, the reference turned right by 90 degrees");
-    CHECK(words_of(4, 6, [](int x, int y) { return texel(width - 1 - y, x); }) ==
+    CHECK(words_of(4, 6, [](int x, int y) { return texel(own_width - 1 - y, x); }) ==
           "4x6, the reference turned left by 90 degrees");
 }
 
@@ -63,7 +63,7 @@ TEST_CASE("of any other size the overlap is told") {
 }
 
 TEST_CASE("the error of compare contains the relation of the sizes") {
-    const Picture a = make_picture({made(width, height, texel)});
+    const Picture a = make_picture({made(own_width, own_height, texel)});
     Picture b = make_picture({made(12, 8, [](int x, int y) { return texel(x / 2, y / 2); })});
     b.file = "twice.png";
     CHECK_THROWS_WITH(compare(a, b),
