@@ -17,11 +17,27 @@ std::string_view name(Kind kind) noexcept { return enum_name(kind); }
 namespace {
 
 // Over all targets, the worst distance of a pixel's depths and of its other codes, whether one of them is beyond its
-// target's tolerance, and whether one of them is NaN or infinite.
+// target's tolerance, whether one of them is NaN or infinite, and whether one of them is seen.
 struct Distances {
+    explicit Distances(std::size_t pixels)
+        : color(pixels), depth(pixels), is_beyond(pixels), is_not_finite(pixels), is_seen(pixels) {}
     std::vector<std::uint32_t> color, depth;
-    std::vector<bool> is_beyond, is_not_finite;
+    std::vector<bool> is_beyond, is_not_finite, is_seen;
 };
+
+// Straight colours with alpha: where it is 0 in both images, they have no effect on what is seen.
+bool may_be_unseen(const TargetPair& pair) {
+    const auto is_straight = [](const TargetImage& t) {
+        return t.meaning == Meaning::color && t.alpha_form == AlphaForm::straight &&
+               t.channels == (t.is_grey ? 2 : 4) && t.code != Code::integer;
+    };
+    return is_straight(*pair.reference) && is_straight(*pair.candidate);
+}
+
+bool has_alpha_0(const TargetPair& pair, std::size_t pixel) {
+    const int alpha = pair.channels() - 1;
+    return pair.reference->value_at(pixel, alpha) == 0 && pair.candidate->value_at(pixel, alpha) == 0;
+}
 
 // Over all channels, pixel by pixel, in binary64.
 void measure_noise(const TargetPair& pair, TargetReport& report) {
@@ -72,11 +88,13 @@ void measure(const TargetPair& pair, const Tolerances& tolerances, Distances& wo
                         .candidate = pair.candidate->code,
                         .channels = pair.channels()};
     const std::uint32_t allowed = tolerances.codes_of(*pair.reference);
+    const bool may_hide = may_be_unseen(pair);
     std::vector<std::uint32_t>& of_kind = pair.reference->meaning == Meaning::depth ? worst.depth : worst.color;
     for (std::size_t i = 0; i < pair.reference->pixels(); ++i) {
         const std::uint32_t apart = pair.distance_at(i);
         if (apart == 0) continue;
         ++report.differing;
+        worst.is_seen[i] = worst.is_seen[i] || !may_hide || !has_alpha_0(pair, i);
         if (count_not_finite(pair, i, report)) {
             worst.is_not_finite[i] = true;
         } else {
@@ -109,6 +127,7 @@ class Sorter {
             if (kind != Kind::none) return kind;
         }
         if (worst.color[pixel] == 0 && worst.depth[pixel] == 0) return Kind::none;
+        if (!worst.is_seen[pixel]) return Kind::unseen;
         if (masks_ && masks_->reference[pixel] != masks_->candidate[pixel]) return Kind::coverage;
         if (masks_ && !masks_->reference[pixel]) return Kind::background;
         return worst.depth[pixel] != 0 ? Kind::depth : Kind::color;
@@ -117,6 +136,7 @@ class Sorter {
     // Layers and the background have no tolerance in codes of their own: their colours and depths have.
     [[nodiscard]] static bool is_forgiven(Kind kind, std::size_t pixel, const Distances& worst) {
         switch (kind) {
+            case Kind::unseen:
             case Kind::background:
             case Kind::depth:
             case Kind::color: return !worst.is_beyond[pixel];
@@ -139,6 +159,7 @@ std::array<bool, kind_count> tested_kinds(const std::vector<TargetPair>& pairs, 
         of(kind) = sorter.has_layers();
     for (const TargetPair& pair : pairs)
         of(pair.reference->meaning == Meaning::depth ? Kind::depth : Kind::color) = true;
+    of(Kind::unseen) = std::ranges::any_of(pairs, may_be_unseen);
     for (const TargetPair& pair : pairs)
         if (is_float(*pair.reference) || is_float(*pair.candidate)) of(Kind::not_finite) = true;
     return tested;
@@ -173,14 +194,15 @@ void spend_all(const Tolerances& t, std::vector<KindReport>& kinds, Comparison& 
     using enum Kind;
     constexpr std::array layers{layer_missing, layer_doubled, layer_swapped, layer_merged, layer_other};
     constexpr std::array coverages{coverage}, backgrounds{background}, depths{depth}, colors{color},
-        not_numbers{not_finite};
+        not_numbers{not_finite}, hidden{unseen};
     constexpr std::array all{coverage,     background,  layer_missing, layer_doubled, layer_swapped,
-                             layer_merged, layer_other, depth,         color};
+                             layer_merged, layer_other, depth,         color,         unseen};
     spend("coverage", t.coverage, coverages, kinds, result);
     spend("background", t.background, backgrounds, kinds, result);
     spend("layers", t.layers, layers, kinds, result);
     spend("depth-pixels", t.depth, depths, kinds, result);
     spend("color-pixels", t.color, colors, kinds, result);
+    spend("unseen", t.unseen, hidden, kinds, result);
     spend("pixels", t.pixels, all, kinds, result);
     spend("not-finite", t.not_finite, not_numbers, kinds, result);
 }
@@ -196,8 +218,7 @@ Comparison compare(const Picture& reference, const Picture& candidate, const Tol
     Comparison result{.width = first.width, .height = first.height};
     result.not_compared = pairing.not_compared;
     result.notes = pairing.notes;
-    Distances worst{std::vector<std::uint32_t>(pixels), std::vector<std::uint32_t>(pixels), std::vector<bool>(pixels),
-                    std::vector<bool>(pixels)};
+    Distances worst(pixels);
     for (const TargetPair& pair : pairing.pairs) measure(pair, tolerances, worst, result);
 
     const Sorter sorter{reference, candidate, pairing, background};
@@ -218,6 +239,7 @@ Comparison compare(const Picture& reference, const Picture& candidate, const Tol
     KindReport& coverage = kinds[static_cast<std::size_t>(Kind::coverage)];
     if (coverage.pixels > 0)
         coverage.detail = compare_coverage(*sorter.masks(), result.width, result.height).description();
+    kinds[static_cast<std::size_t>(Kind::unseen)].detail = "alpha is 0 in both pictures, so these colours are not seen";
     spend_all(tolerances, kinds, result);
     std::erase_if(kinds, [](const KindReport& kind) { return kind.pixels == 0; });
     result.kinds = std::move(kinds);

@@ -21,6 +21,7 @@ namespace strata::oracle {
 enum class Kind : std::uint8_t {
     none,
     not_finite,     // NaN or infinite in one image, and not the same in the other
+    unseen,         // straight colours where alpha is 0 in both images
     coverage,       // drawn in one image only
     background,     // drawn in neither image
     layer_missing,  // the candidate lacks some of the reference's layers
@@ -31,7 +32,7 @@ enum class Kind : std::uint8_t {
     depth,
     color
 };
-inline constexpr std::size_t kind_count = 11;
+inline constexpr std::size_t kind_count = 12;
 [[nodiscard]] std::string_view name(Kind kind) noexcept;
 
 // The number of pixels that may differ: a count, or a share of all pixels, whichever is larger.
@@ -49,8 +50,9 @@ struct Tolerances {
     std::uint32_t color_codes = 0, depth_codes = 0;       // in codes of the reference's type, at every pixel
     std::map<std::string, std::uint32_t> target_codes{};  // of targets by name, instead of the two above
     // Pixels that may differ beyond the tolerance in codes, by kind: coverage, the background, layers of any kind,
-    // depth, colour; and a budget for the remaining pixels of these kinds. NaN and infinity have a budget of their own.
-    PixelBudget coverage{}, background{}, layers{}, depth{}, color{}, pixels{}, not_finite{};
+    // depth, colour, colours that are not seen; and a budget for the remaining pixels of these kinds. NaN and infinity
+    // have a budget of their own.
+    PixelBudget coverage{}, background{}, layers{}, depth{}, color{}, unseen{}, pixels{}, not_finite{};
     ColorChannels channels = ColorChannels::all;  // of colour targets
     friend bool operator==(const Tolerances&, const Tolerances&) = default;
 

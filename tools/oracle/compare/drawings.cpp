@@ -66,6 +66,7 @@ std::array<std::uint8_t, 3> color_of(Kind kind) noexcept {
     switch (kind) {
         case Kind::none: return {0, 0, 0};
         case Kind::not_finite: return {255, 255, 255};
+        case Kind::unseen: return {128, 128, 128};
         case Kind::coverage: return {255, 255, 0};
         case Kind::background: return {128, 128, 255};
         case Kind::layer_missing: return {255, 0, 0};

@@ -36,12 +36,6 @@ std::string histogram(const TargetReport& target) {
     return text;
 }
 
-std::string not_finite(const TargetReport& target, std::string_view name, const NotFinite& found) {
-    if (found.first_x < 0) return "";
-    return fmt::format("  target {}: {} at {} pixels of the reference and {} of the candidate, first at {},{}\n",
-                       in_part(target), name, found.pixels[0], found.pixels[1], found.first_x, found.first_y);
-}
-
 std::string share(const Explanation& e) {
     const double percent = 100.0 * static_cast<double>(e.explained) / static_cast<double>(e.of);
     return fmt::format("{:.1f} % of the differing pixels are those of {}{}", percent, e.description,
@@ -62,10 +56,9 @@ std::string to_text(const Comparison& c) {
                 name(target.reference),
                 target.candidate == target.reference ? "" : fmt::format(" against {}", name(target.candidate)),
                 target.differing, target.greatest, histogram(target));
-        text += not_finite(target, "NaN", target.nan) + not_finite(target, "infinity", target.infinite);
-        if (target.rmse)
-            text += fmt::format("  target {}: RMSE {:.3f}/255, PSNR {:.2f} dB\n", in_part(target), *target.rmse,
-                                *target.psnr);
+        if (const std::string numbers = not_finite_of(target); !numbers.empty())
+            text += fmt::format("  target {}: {}\n", in_part(target), numbers);
+        if (target.rmse) text += fmt::format("  target {}: {}\n", in_part(target), noise_of(target));
     }
     for (const KindReport& kind : c.kinds)
         text += fmt::format("  {}: {} pixels, {} of them beyond the tolerance, first at {},{}{}\n", name(kind.kind),
@@ -126,6 +119,37 @@ std::string text_of(const ordered_json& document) {
 }
 
 std::string to_json(const Comparison& c) { return text_of(json_of(c)); }
+
+std::string noise_of(const TargetReport& target) {
+    if (!target.rmse) return "";
+    const double rmse = *target.rmse / 255;
+    const auto in_steps = [&](int steps) {
+        return fmt::format("RMSE {:.3f}/{}, PSNR {:.2f} dB", rmse * steps, steps, *target.psnr);
+    };
+    switch (target.reference) {
+        case Code::unorm8: return fmt::format("RMSE {:.3f}/255, PSNR {:.2f} dB", *target.rmse, *target.psnr);
+        case Code::unorm10: return in_steps(1023);
+        case Code::unorm16: return in_steps(65535);
+        case Code::unorm24: return in_steps(16777215);
+        case Code::half:
+        case Code::single:
+        case Code::integer: break;
+    }
+    return fmt::format("RMSE {:.6g}, PSNR {:.2f} dB of 1", rmse, *target.psnr);
+}
+
+std::string not_finite_of(const TargetReport& target) {
+    std::string text;
+    const auto add = [&](std::string_view name, const NotFinite& found) {
+        if (found.first_x < 0) return;
+        text +=
+            fmt::format("{}{} at {} pixels of the reference and {} of the candidate, first at {},{}",
+                        text.empty() ? "" : "; ", name, found.pixels[0], found.pixels[1], found.first_x, found.first_y);
+    };
+    add("NaN", target.nan);
+    add("infinity", target.infinite);
+    return text;
+}
 
 std::string failure_of(const KindReport& kind) {
     return fmt::format("{} pixels, first at {},{}{}", kind.beyond, kind.first_x, kind.first_y,

@@ -17,6 +17,12 @@ struct JunitCase {
     bool is_skipped = false;
 };
 [[nodiscard]] std::string to_junit(const std::vector<JunitCase>& cases);
+// "RMSE 0.567/255, PSNR 53.07 dB" in the steps of the reference's codes; of floats the RMSE is that of the values.
+// Empty without figures.
+[[nodiscard]] std::string noise_of(const TargetReport& target);
+// "NaN at 0 pixels of the reference and 1 of the candidate, first at 5,5", and the same of infinity. Empty without
+// both.
+[[nodiscard]] std::string not_finite_of(const TargetReport& target);
 // "31 pixels, first at 4,7": those beyond the tolerance.
 [[nodiscard]] std::string failure_of(const KindReport& kind);
 

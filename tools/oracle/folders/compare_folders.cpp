@@ -44,6 +44,10 @@ std::string sentence_of(const Comparison& found) {
     const std::uint32_t greatest = greatest_distance(found);
     std::string text = fmt::format("{} of {} pixels differ", found.differing, pixels);
     if (greatest > 0) text += fmt::format(" by at most {} code{}", greatest, greatest == 1 ? "" : "s");
+    for (const TargetReport& target : found.targets)
+        if (target.rmse && target.part.empty()) text += "; " + noise_of(target);
+    for (const TargetReport& target : found.targets)
+        if (const std::string numbers = not_finite_of(target); !numbers.empty()) text += "; " + numbers;
     for (const KindReport& kind : found.kinds)
         if (found.accepted || kind.beyond > 0)
             text += fmt::format("; {}: {}", name(kind.kind),

@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <optional>
+#include <vector>
 
 namespace strata::oracle {
 
@@ -70,6 +73,61 @@ std::string turned(const TargetImage& reference, const TargetImage& candidate) {
     return "";
 }
 
+// Up to 32 pixels of the rarest colours among some thousand: few other places have them.
+std::vector<Position> rare_pixels(const TargetImage& target) {
+    constexpr int most_a_side = 64;
+    constexpr std::size_t most = 32;
+    const int step_x = (target.width + most_a_side - 1) / most_a_side;
+    const int step_y = (target.height + most_a_side - 1) / most_a_side;
+    const auto channels = static_cast<std::size_t>(target.channels);
+    std::map<std::vector<std::uint32_t>, std::vector<Position>> by_color;
+    for (int y = 0; y < target.height; y += step_y)
+        for (int x = 0; x < target.width; x += step_x) {
+            const auto first = target.codes.begin() + static_cast<std::ptrdiff_t>(index(target, {x, y}) * channels);
+            by_color[{first, first + target.channels}].push_back({x, y});
+        }
+    std::vector<std::vector<Position>> groups;
+    for (auto& [color, places] : by_color) groups.push_back(std::move(places));
+    std::ranges::stable_sort(groups, {}, [](const std::vector<Position>& places) { return places.size(); });
+    std::vector<Position> rare;
+    for (const std::vector<Position>& places : groups)
+        for (const Position place : places)
+            if (rare.size() < most) rare.push_back(place);
+    return rare;
+}
+
+bool lies_at(const TargetImage& whole, Position offset, const TargetImage& part) {
+    for (int y = 0; y < part.height; ++y)
+        for (int x = 0; x < part.width; ++x)
+            if (!agree(part, {x, y}, whole, {x + offset.x, y + offset.y})) return false;
+    return true;
+}
+
+// Where the part lies in the whole.
+std::optional<Position> place_in(const TargetImage& whole, const TargetImage& part) {
+    if (part.width > whole.width || part.height > whole.height) return std::nullopt;
+    const std::vector<Position> rare = rare_pixels(part);
+    int tries = 64;
+    for (int y = 0; y <= whole.height - part.height; ++y)
+        for (int x = 0; x <= whole.width - part.width; ++x) {
+            const bool is_likely = std::ranges::all_of(rare, [&](Position at) {
+                return agree(part, at, whole, {at.x + x, at.y + y});
+            });
+            if (!is_likely) continue;
+            if (lies_at(whole, {x, y}, part)) return Position{x, y};
+            if (--tries == 0) return std::nullopt;
+        }
+    return std::nullopt;
+}
+
+std::string cut(const TargetImage& reference, const TargetImage& candidate) {
+    if (const auto at = place_in(reference, candidate); at && (at->x > 0 || at->y > 0))
+        return fmt::format("cut from the reference at {},{}", at->x, at->y);
+    if (const auto at = place_in(candidate, reference); at && (at->x > 0 || at->y > 0))
+        return fmt::format("the reference with a border: it begins at {},{}", at->x, at->y);
+    return "";
+}
+
 std::string overlap(const TargetImage& reference, const TargetImage& candidate) {
     const int width = std::min(reference.width, candidate.width), height = std::min(reference.height, candidate.height);
     const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
@@ -83,8 +141,9 @@ std::string relation(const TargetImage& reference, const TargetImage& candidate)
         if (is_scaled(reference, candidate, by)) return fmt::format("the reference scaled by {}", by);
         if (is_reduced(candidate, reference, by)) return fmt::format("the reference scaled by 1/{}", by);
     }
-    const std::string other = turned(reference, candidate);
-    return other.empty() ? overlap(reference, candidate) : other;
+    if (std::string other = turned(reference, candidate); !other.empty()) return other;
+    if (std::string other = cut(reference, candidate); !other.empty()) return other;
+    return overlap(reference, candidate);
 }
 
 }  // namespace

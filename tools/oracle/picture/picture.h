@@ -73,7 +73,8 @@ struct Picture {
 // The layout of a pixel's channels in plain numbers: interleaved, red first or blue first; or a little-endian word of
 // 32 bits, from its lowest bit: red, green, blue of 10 bits and alpha of 2 (OpenGL's 2_10_10_10_REV, DXGI's
 // R10G10B10A2), or blue, green, red and alpha.
-enum class Packing : std::uint8_t { channels, blue_first, rgb10a2, bgr10a2 };
+// Depth of 24 bits with 8 bits of something else above it, or below it.
+enum class Packing : std::uint8_t { channels, blue_first, rgb10a2, bgr10a2, low_depth, high_depth };
 
 // The layout of a file of plain little-endian numbers.
 struct RawLayout {
@@ -89,10 +90,13 @@ struct RawLayout {
 
 // WIDTHxHEIGHT:FORMAT[:bottom-up][:offset=BYTES][:stride=BYTES], as "640x480:rgba8" or
 // "640x480:bgra8:offset=54:bottom-up". Formats: r, rg, rgb and rgba with 8, 16, 16f or 32f; bgr8, bgra8, rgb10a2,
-// bgr10a2; d16, d24 (in 32-bit words), d32f. Empty for any other text.
+// bgr10a2; d16, d24 (in 32-bit words whose upper byte is 0), d32f; and named from the highest bit of a 32-bit word:
+// x8d24 (the upper byte is anything), s8d24 (Direct3D's D24_UNORM_S8_UINT), d24s8 (OpenGL's UNSIGNED_INT_24_8), of
+// which the stencil is left out. Empty for any other text.
 [[nodiscard]] std::optional<RawLayout> raw_layout(std::string_view text);
 inline constexpr const char* raw_layout_expected =
-    "WIDTHxHEIGHT:FORMAT such as 640x480:rgba8, bgra8, rgb10a2, rgb16, rgba32f, d24 or d32f, and :bottom-up if the "
+    "WIDTHxHEIGHT:FORMAT such as 640x480:rgba8, bgra8, rgb10a2, rgb16, rgba32f, d24, d24s8 or d32f, and :bottom-up if "
+    "the "
     "lowest row comes first, "
     ":offset=BYTES for a header, :stride=BYTES from row to row";
 

@@ -2,6 +2,7 @@
 // them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -25,6 +26,9 @@ struct FormatName {
 };
 constexpr FormatName formats[]{{"d16", 1, Code::unorm16, Meaning::depth},
                                {"d24", 1, Code::unorm24, Meaning::depth},
+                               {"x8d24", 1, Code::unorm24, Meaning::depth, Packing::low_depth},
+                               {"s8d24", 1, Code::unorm24, Meaning::depth, Packing::low_depth},
+                               {"d24s8", 1, Code::unorm24, Meaning::depth, Packing::high_depth},
                                {"d32f", 1, Code::single, Meaning::depth},
                                {"bgr8", 3, Code::unorm8, Meaning::color, Packing::blue_first},
                                {"bgra8", 4, Code::unorm8, Meaning::color, Packing::blue_first},
@@ -82,6 +86,8 @@ std::array<std::uint32_t, 4> unpacked(std::uint32_t word, Packing packing) noexc
     return {is_red_first ? low : high, word >> 10 & 1023, is_red_first ? high : low, (word >> 30) * 341};
 }
 
+constexpr std::uint32_t greatest_depth24 = 0xffffff;
+
 void take_row(std::string_view row, const RawLayout& layout, std::uint32_t* to) {
     const std::size_t size = bytes_of(layout.code), channels = static_cast<std::size_t>(layout.channels);
     const auto word_at = [&](std::size_t i) { return little_endian(row.substr(i * size, size)); };
@@ -92,6 +98,8 @@ void take_row(std::string_view row, const RawLayout& layout, std::uint32_t* to) 
                 for (std::size_t c = 0; c < channels; ++c) to[c] = word_at(x * channels + c);
                 if (layout.packing == Packing::blue_first) std::swap(to[0], to[2]);
                 break;
+            case Packing::low_depth: to[0] = word_at(x) & greatest_depth24; break;
+            case Packing::high_depth: to[0] = word_at(x) >> 8; break;
             case Packing::rgb10a2:
             case Packing::bgr10a2: {
                 const auto codes = unpacked(little_endian(row.substr(4 * x, 4)), layout.packing);
@@ -140,6 +148,17 @@ void check_size(std::size_t bytes, const std::string& thing, const RawLayout& la
             fmt::format("{} bytes", bytes));
 }
 
+void check_depth24(const TargetImage& target, const std::string& thing) {
+    const auto beyond = std::ranges::find_if(target.codes, [](std::uint32_t code) { return code > greatest_depth24; });
+    if (target.code != Code::unorm24 || beyond == target.codes.end()) return;
+    const auto pixel = static_cast<std::size_t>(beyond - target.codes.begin());
+    const auto width = static_cast<std::size_t>(target.width);
+    throw InputError(thing, fmt::format("pixel {},{}", pixel % width, pixel / width),
+                     "a depth of 24 bits with 0 in the upper byte (x8d24 or s8d24: the upper byte is something else; "
+                     "d24s8: the lower one is)",
+                     fmt::format("{:#010x}", *beyond));
+}
+
 }  // namespace
 
 TargetImage raw_target(std::string_view bytes, const std::string& thing, const RawLayout& layout) {
@@ -157,6 +176,7 @@ TargetImage raw_target(std::string_view bytes, const std::string& thing, const R
     for (std::size_t y = 0; y < rows; ++y)
         take_row(bytes.substr(layout.offset + y * stride, row), layout,
                  &target.codes[(layout.bottom_up ? rows - 1 - y : y) * codes]);
+    check_depth24(target, thing);
     return target;
 }
 

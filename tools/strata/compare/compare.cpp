@@ -38,7 +38,7 @@ namespace {
 // The options of the command line.
 struct CompareOptions {
     std::string reference, candidate;
-    std::optional<oracle::RawLayout> layout{};
+    std::optional<oracle::RawLayout> layout{}, candidate_layout{};  // of the candidate: the first if it has none
     oracle::Tolerances tolerances{};
     std::optional<oracle::AlphaForm> alpha_form{};
     oracle::Background background{};  // empty: read from the pictures
@@ -68,6 +68,10 @@ const peeling::Algorithm* algorithm_of(const CompareOptions& options) {
 std::string judged_algorithm(const CompareOptions& options) {
     const peeling::Algorithm* algorithm = algorithm_of(options);
     return algorithm != nullptr && !algorithm->exact ? algorithm->name : options.algorithm;
+}
+
+oracle::Picture read_candidate(const CompareOptions& options, const std::string& path) {
+    return oracle::read_picture(path, options.candidate_layout ? options.candidate_layout : options.layout);
 }
 
 ComparedPaths paths_of(const CompareOptions& options) { return {options.reference, options.candidate}; }
@@ -158,7 +162,7 @@ oracle::Picture reference_of(const CompareOptions& options) {
     if (!is_scene(options.reference)) return oracle::read_picture(options.reference, options.layout);
     if (!scenes::is_pack(options.reference))
         return drawn_picture({.run = options.run, .algorithm = options.algorithm},
-                             oracle::read_picture(options.candidate, options.layout));
+                             read_candidate(options, options.candidate));
     auto all = chosen(oracle::expected_pictures(options.reference), options.algorithm);
     if (all.size() != 1)
         throw CLI::ValidationError("the pack has several algorithms: --algorithm says which one the picture is of");
@@ -176,7 +180,7 @@ int compare_plain_folders(const CompareOptions& options) {
          .read_reference = [&](const std::string& path) { return oracle::read_picture(path, options.layout); },
          .read_candidate =
              [&](const std::string& path) {
-                 oracle::Picture picture = oracle::read_picture(path, options.layout);
+                 oracle::Picture picture = read_candidate(options, path);
                  state_alpha(picture, options.alpha_form);
                  return picture;
              }},
@@ -193,7 +197,7 @@ int compared(const CompareOptions& options) {
         return compare_plain_folders(options);
     if (asks_for_verdict(options)) {
         scenes::expect_for_a_pixel(bytes_of_a_verdict(options.run.sampling.samples));
-        oracle::Picture picture = oracle::read_picture(options.candidate, options.layout);
+        oracle::Picture picture = read_candidate(options, options.candidate);
         state_alpha(picture, options.alpha_form);
         const bool has_alpha = options.tolerances.channels == oracle::ColorChannels::all;
         return compare_with_scene({options.run,
@@ -205,7 +209,7 @@ int compared(const CompareOptions& options) {
                                   picture);
     }
     oracle::Picture reference = reference_of(options);
-    oracle::Picture candidate = oracle::read_picture(options.candidate, options.layout);
+    oracle::Picture candidate = read_candidate(options, options.candidate);
     state_alpha(candidate, options.alpha_form);
     if (is_linear(options) && is_scene(options.reference))
         reference = stored_like(reference, candidate, pipeline::ColorSpace::linear);
@@ -252,7 +256,7 @@ void check_folders(const CLI::App& app, const CompareOptions& options) {
         if (app.count(name) > 0)
             throw CLI::ValidationError(std::string(name) +
                                        " has no effect on folders of pictures: --report shows what differs");
-    if (options.layout && !options.names.reference)
+    if ((options.layout || options.candidate_layout) && !options.names.reference)
         throw CLI::ValidationError("--layout needs --names on folders: which files hold raw numbers");
 }
 
@@ -287,7 +291,10 @@ void check_layout(const CompareOptions& options) {
     };
     const bool reads_reference = !is_scene(options.reference);
     if (!is_scene(options.reference) && std::filesystem::is_directory(options.reference)) return;
-    if (options.layout && !is_raw(options.candidate) && !(reads_reference && is_raw(options.reference)))
+    if (options.candidate_layout && !is_raw(options.candidate))
+        throw CLI::ValidationError("--candidate-layout has no effect: the candidate is no file of raw numbers");
+    const bool is_for_candidate = is_raw(options.candidate) && !options.candidate_layout;
+    if (options.layout && !is_for_candidate && !(reads_reference && is_raw(options.reference)))
         throw CLI::ValidationError("--layout has no effect: no file of raw numbers is compared");
 }
 
@@ -313,6 +320,7 @@ Command add_compare(CLI::App& root) {
         ->required()
         ->type_name("");
     add_layout_option(*app, options->layout);
+    add_candidate_layout_option(*app, options->candidate_layout);
     add_tolerance_option(*app, options->tolerances);
     app->add_flag("--exact", options->exact,
                   "of a scene or a pack: hold the picture to every bit, and show where it differs");

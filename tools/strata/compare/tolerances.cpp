@@ -30,9 +30,9 @@ bool take_tolerance(std::string_view kind, std::string_view amount, oracle::Tole
         }
     for (const auto& [name, budget] :
          {std::pair{"coverage", &Tolerances::coverage}, std::pair{"background", &Tolerances::background},
-          std::pair{"layers", &Tolerances::layers}, std::pair{"depth-pixels", &Tolerances::depth},
-          std::pair{"color-pixels", &Tolerances::color}, std::pair{"pixels", &Tolerances::pixels},
-          std::pair{"not-finite", &Tolerances::not_finite}})
+          std::pair{"layers", &Tolerances::layers}, std::pair{"unseen", &Tolerances::unseen},
+          std::pair{"depth-pixels", &Tolerances::depth}, std::pair{"color-pixels", &Tolerances::color},
+          std::pair{"pixels", &Tolerances::pixels}, std::pair{"not-finite", &Tolerances::not_finite}})
         if (kind == name) {
             const auto found = to_budget(amount);
             tolerances.*budget = found.value_or(oracle::PixelBudget{});
@@ -55,13 +55,19 @@ std::optional<oracle::Tolerances> to_tolerances(std::string_view text) {
     return tolerances;
 }
 
+std::optional<std::optional<oracle::RawLayout>> to_layout(std::string_view text) {
+    const auto found = oracle::raw_layout(text);
+    if (!found) return std::nullopt;
+    return found;
+}
+
 }  // namespace
 
 void check_targets(const oracle::Tolerances& tolerances, const std::vector<std::string>& targets) {
     for (const auto& [name, codes] : tolerances.target_codes) {
         if (std::ranges::find(targets, name) != targets.end()) continue;
         std::vector<std::string> known{"color",        "depth",        "coverage", "background", "layers",
-                                       "depth-pixels", "color-pixels", "pixels",   "not-finite"};
+                                       "depth-pixels", "color-pixels", "unseen",   "pixels",     "not-finite"};
         std::ranges::copy_if(targets, std::back_inserter(known), [&](const std::string& target) {
             return std::ranges::find(known, target) == known.end();
         });
@@ -71,17 +77,20 @@ void check_targets(const oracle::Tolerances& tolerances, const std::vector<std::
 }
 
 void add_layout_option(CLI::App& app, std::optional<oracle::RawLayout>& layout) {
-    add_option(
-        app, layout,
-        {"--layout", "WIDTHxHEIGHT:FORMAT[:WORD...]",
-         "of files of bare little-endian numbers: rgba8, bgra8, rgb10a2, rgba16f, d24 and the like, and :bottom-up, "
-         ":offset=BYTES, :stride=BYTES",
-         oracle::raw_layout_expected},
-        [](std::string_view text) -> std::optional<std::optional<oracle::RawLayout>> {
-            const auto found = oracle::raw_layout(text);
-            if (!found) return std::nullopt;
-            return found;
-        });
+    add_option(app, layout,
+               {"--layout", "WIDTHxHEIGHT:FORMAT[:WORD...]",
+                "of files of bare little-endian numbers: rgba8, bgra8, rgb10a2, rgba16f, d24, d24s8 and the like, and "
+                ":bottom-up, "
+                ":offset=BYTES, :stride=BYTES",
+                oracle::raw_layout_expected},
+               to_layout);
+}
+
+void add_candidate_layout_option(CLI::App& app, std::optional<oracle::RawLayout>& layout) {
+    add_option(app, layout,
+               {"--candidate-layout", "WIDTHxHEIGHT:FORMAT[:WORD...]",
+                "of the candidate's file of bare numbers, if it is not that of --layout", oracle::raw_layout_expected},
+               to_layout);
 }
 
 void add_alpha_option(CLI::App& app, std::optional<oracle::AlphaForm>& form) {
@@ -111,11 +120,11 @@ void add_tolerance_option(CLI::App& app, oracle::Tolerances& tolerances) {
         app, tolerances,
         {"--tolerance", "KIND=N[,KIND=N...]",
          "forgive colours and depths N codes apart (color, depth, or a target by its name), and pixels that differ all "
-         "the same, N or N% of them, by what they differ in (coverage, background, layers, depth-pixels, color-pixels) "
-         "or in whatever "
+         "the same, N or N% of them, by what they differ in (coverage, background, layers, depth-pixels, color-pixels, "
+         "unseen: colours where alpha is 0 in both) or in whatever "
          "(pixels); NaN and infinity only by not-finite=N; nothing without this option",
          "color=N, depth=N, TARGET=N, coverage=N, background=N, layers=N, depth-pixels=N, color-pixels=N, "
-         "not-finite=N and pixels=N with commas between, pixels also as a share such as 0.02%"},
+         "unseen=N, not-finite=N and pixels=N with commas between, pixels also as a share such as 0.02%"},
         [&tolerances](std::string_view text) {
             auto found = to_tolerances(text);
             if (found) found->channels = tolerances.channels;  // --channels is a separate option

@@ -8,7 +8,8 @@
 
 namespace strata::tools {
 
-void add_layout_option(CLI::App& app, std::optional<oracle::RawLayout>& layout);  // --layout
+void add_layout_option(CLI::App& app, std::optional<oracle::RawLayout>& layout);            // --layout
+void add_candidate_layout_option(CLI::App& app, std::optional<oracle::RawLayout>& layout);  // --candidate-layout
 // Names in --tolerance that are not kinds of differences must be names of targets: throws CLI::ValidationError for any
 // other name.
 void check_targets(const oracle::Tolerances& tolerances, const std::vector<std::string>& targets);

@@ -140,13 +140,13 @@ TEST_CASE("JUnit skips the kinds that the compared targets cannot show") {
             names.push_back(xml.substr(begin, xml.find('"', begin) - begin));
         }
         CHECK(xml.find("skipped=\"" + std::to_string(names.size()) + "\"") != xml.npos);
-        CHECK(xml.find("tests=\"10\"") != xml.npos);
+        CHECK(xml.find("tests=\"11\"") != xml.npos);
         return names;
     };
     const std::vector<std::string> layers{"layer_missing", "layer_doubled", "layer_swapped", "layer_merged",
                                           "layer_other"};
     const auto with_floats = [](std::vector<std::string> names) {
-        names.insert(names.begin(), "not_finite");
+        names.insert(names.begin(), {"not_finite", "unseen"});
         return names;
     };
     std::vector<std::string> flat = with_floats(layers);
@@ -158,7 +158,7 @@ TEST_CASE("JUnit skips the kinds that the compared targets cannot show") {
     CHECK(skipped(make_picture({make_target("", Code::unorm8, 40, 30, 4, ellipse_texel), depth})) ==
           with_floats(layers));
     CHECK(skipped(make_picture({make_target("", Code::single, 40, 30, 4, [](int, int) { return Texel{}; })})).front() ==
-          "layer_missing");
+          "unseen");
 }
 
 TEST_CASE(
@@ -266,6 +266,53 @@ TEST_CASE("NaN and infinity are a kind of their own that only its own budget acc
     check(flat(infinity, half), right, {0, 0}, {1, 0});
     CHECK(compare(flat(nan, infinity), flat(nan, infinity)).equal);
     CHECK_FALSE(compare(flat(nan, one), flat(infinity, one), anything).accepted);
+}
+
+TEST_CASE("straight colours where alpha is 0 in both pictures are a kind of their own with a budget") {
+    // Of 4 x 4 pixels those of one row have a hidden colour.
+    const auto flat = [](std::uint32_t hidden, std::uint32_t alpha, std::uint32_t shown) {
+        TargetImage target = make_target("", Code::unorm8, 4, 4, 4, [=](int, int y) {
+            return y == 2 ? Texel{hidden, 1, 2, alpha} : Texel{shown, 20, 30, 255};
+        });
+        target.alpha_form = AlphaForm::straight;
+        return make_picture({target});
+    };
+    const Picture reference = flat(0, 0, 10);
+    const Comparison found = compare(reference, flat(255, 0, 10));
+    REQUIRE(found.kinds.size() == 1);
+    CHECK(found.kinds[0].kind == Kind::unseen);
+    CHECK(found.kinds[0].pixels == 4);
+    CHECK_FALSE(found.accepted);
+    CHECK(compare(reference, flat(255, 0, 10), {.unseen = {.share = 1}}).accepted);
+    CHECK(compare(reference, flat(255, 0, 10), {.unseen = {.pixels = 4}}).accepted);
+    CHECK_FALSE(compare(reference, flat(255, 0, 10), {.unseen = {.pixels = 3}}).accepted);
+    CHECK(compare(reference, flat(255, 0, 10), {.pixels = {.pixels = 4}}).accepted);
+    CHECK(compare(reference, flat(255, 0, 10), {.color_codes = 255}).accepted);
+    // One step of alpha is seen, in one of the pictures or in both.
+    for (const std::uint32_t alpha : {0u, 1u})
+        CHECK(find_kind(compare(flat(0, alpha, 10), flat(255, 1, 10), {.unseen = {.share = 1}}), Kind::unseen) ==
+              nullptr);
+    // Other pixels keep their kind.
+    CHECK_FALSE(compare(reference, flat(255, 0, 11), {.unseen = {.share = 1}}).accepted);
+    // Premultiplied colours are added even where alpha is 0.
+    Picture added = flat(255, 0, 10), none = reference;
+    for (Picture* const picture : {&added, &none}) picture->targets[0].alpha_form = AlphaForm::premultiplied;
+    CHECK(find_kind(compare(none, added), Kind::unseen) == nullptr);
+}
+
+TEST_CASE("figures of noise are in the steps of the picture's codes") {
+    const auto noise = [](Code code, std::uint32_t a, std::uint32_t b) {
+        const auto flat = [code](std::uint32_t word) {
+            return make_picture({make_target("", code, 2, 2, 3, [word](int, int) {
+                return Texel{word, word, word, 0};
+            })});
+        };
+        return noise_of(compare(flat(a), flat(b)).targets.at(0));
+    };
+    CHECK(noise(Code::unorm8, 10, 20) == "RMSE 10.000/255, PSNR 28.13 dB");                  // 20 log10(25.5)
+    CHECK(noise(Code::unorm16, 1000, 1100) == "RMSE 100.000/65535, PSNR 56.33 dB");          // 20 log10(655.35)
+    CHECK(noise(Code::single, 0x3f000000, 0x3f200000) == "RMSE 0.125, PSNR 18.06 dB of 1");  // 20 log10(8)
+    CHECK(noise(Code::unorm8, 10, 10).empty());
 }
 
 TEST_CASE("RMSE and PSNR are those of all channels in units of 1/255") {

@@ -103,6 +103,26 @@ TEST_CASE("many pictures are taken in the order of their names") {
     CHECK(lines_of(folders) == names);
 }
 
+TEST_CASE("NaN is named, and no budget of pixels accepts it") {
+    const TwoFolders folders;
+    const auto npy = [](std::uint32_t second) {
+        const std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 2, 3), }";
+        std::string bytes = std::string("\x93NUMPY\x01\x00\x76\x00", 10) + header;
+        bytes.resize(127, ' ');
+        bytes += '\n';
+        for (const std::uint32_t word : {0x3f000000u, 0x3f000000u, 0x3f000000u, second, 0x3f000000u, 0x3f000000u})
+            for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(word >> shift & 0xff);
+        return bytes;
+    };
+    folders.write_reference("a.npy", npy(0x3f000000));
+    folders.write_candidate("a.npy", npy(0x7fc00000));
+    CHECK_THAT(lines_of(folders, {.tolerances = {.pixels = {.pixels = 2}}}).at(1),
+               Catch::StartsWith("a.npy: different: 1 of 2 pixels differ; NaN at 0 pixels of the reference and 1 of "
+                                 "the candidate, first at 1,0"));
+    CHECK_THAT(lines_of(folders, {.tolerances = {.not_finite = {.pixels = 1}}}).at(1),
+               Catch::StartsWith("a.npy: accepted: "));
+}
+
 TEST_CASE("test cases of a CI fail with the sentence of the case") {
     const FolderCase failed{.name = "a.png", .state = CaseState::missing, .sentence = "none"};
     CHECK(junit_case(failed).failure == "missing: none");

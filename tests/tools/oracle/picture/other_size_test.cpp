@@ -50,6 +50,23 @@ TEST_CASE("a transposed and a turned picture are told apart") {
           "4x6, the reference turned left by 90 degrees");
 }
 
+TEST_CASE("a picture that is cut from the reference, or has a border, is told with its place") {
+    CHECK(words_of(4, 3, [](int x, int y) { return texel(x + 2, y + 1); }) == "4x3, cut from the reference at 2,1");
+    CHECK(words_of(6, 3, [](int x, int y) { return texel(x, y + 1); }) == "6x3, cut from the reference at 0,1");
+    const auto bordered = [](int x, int y) {
+        const bool is_inside = x >= 3 && y >= 1 && x < own_width + 3 && y < own_height + 1;
+        return is_inside ? texel(x - 3, y - 1) : Texel{7, 7, 7, 255};
+    };
+    CHECK(words_of(10, 7, bordered) == "10x7, the reference with a border: it begins at 3,1");
+    CHECK(words_of(10, 7, [&](int x, int y) {
+              return x == 5 && y == 3 ? Texel{200, 1, 1, 255} : bordered(x, y);
+          }).find("border") == std::string::npos);
+    // All places of a flat picture agree: the first one is the upper left corner.
+    const auto flat = [](int, int) { return Texel{9, 9, 9, 255}; };
+    CHECK(size_in_words(made(9, 9, flat), made(4, 5, flat)) ==
+          "4x5, equal where both overlap, from the upper left corner");
+}
+
 TEST_CASE("of any other size the overlap is told") {
     CHECK(words_of(6, 5, texel) == "6x5, equal where both overlap, from the upper left corner");
     CHECK(words_of(5, 6, [](int x, int y) {

@@ -126,6 +126,7 @@ TEST_CASE("raw numbers are read by their layout from the top or from the bottom"
     CHECK(read_picture(file.path(), layout("3x1:d16")).targets[0].codes ==
           std::vector<std::uint32_t>{0x6261, 0x6463, 0x6665});
     CHECK(layout("640x480:d24").meaning == Meaning::depth);
+    for (const char* text : {"8x8:x8d24", "8x8:s8d24", "8x8:d24s8"}) CHECK(layout(text).code == Code::unorm24);
     CHECK(layout("640x480:rgba32f").code == Code::single);
     CHECK_THROWS_AS(read_picture(file.path(), layout("2x2:rgb8")), strata::InputError);
     CHECK_THROWS_AS(read_picture(file.path()), strata::InputError);
@@ -149,6 +150,14 @@ TEST_CASE("raw numbers may be in the order blue first or in packed values or aft
     CHECK(codes("1x1:rgb10a2", packed) == Codes{1023, 1, 512, 682});
     CHECK(codes("1x1:bgr10a2", packed) == Codes{512, 1, 1023, 682});
     CHECK(raw_target(packed, "memory", raw_layout("1x1:rgb10a2").value()).code == Code::unorm10);
+    // A word of 32 bits with 24 bits of depth, lowest byte first.
+    const std::string depth{4, 5, 6, 7};
+    for (const char* text : {"1x1:x8d24", "1x1:s8d24"}) CHECK(codes(text, depth) == Codes{0x060504});
+    CHECK(codes("1x1:d24s8", depth) == Codes{0x070605});
+    CHECK(codes("1x1:d24", {4, 5, 6, 0}) == Codes{0x060504});
+    CHECK_THROWS_WITH(codes("1x2:d24", {4, 5, 6, 0, 4, 5, 6, 7}),
+                      "memory: pixel 0,1: expected a depth of 24 bits with 0 in the upper byte (x8d24 or s8d24: the "
+                      "upper byte is something else; d24s8: the lower one is), found 0x07060504");
     // Two bytes of header; rows of 3 bytes whose last byte is padding.
     const std::string rows{9, 9, 1, 2, 0, 3, 4, 0};
     CHECK(codes("2x2:r8:offset=2:stride=3", rows) == Codes{1, 2, 3, 4});

@@ -105,17 +105,17 @@ TEST_CASE("compare names what it expected when it is given something else") {
         words.insert(words.begin(), {"compare", "a.raw", "b.raw"});
         return run_strata(folder, words).err;
     };
-    CHECK(
-        says({"--tolerance", "colour"}) ==
-        "strata: --tolerance: expected color=N, depth=N, TARGET=N, coverage=N, background=N, layers=N, "
-        "depth-pixels=N, color-pixels=N, not-finite=N and pixels=N with commas between, pixels also as a share such as "
-        "0.02%, found 'colour'\n");
-    CHECK(
-        says({"--layout", "3x3"}) ==
-        "strata: --layout: expected WIDTHxHEIGHT:FORMAT such as 640x480:rgba8, bgra8, rgb10a2, rgb16, rgba32f, d24 or "
-        "d32f, and :bottom-up if the lowest row comes first, :offset=BYTES for a header, :stride=BYTES from row to "
-        "row, "
-        "found '3x3'\n");
+    CHECK(says({"--tolerance", "colour"}) ==
+          "strata: --tolerance: expected color=N, depth=N, TARGET=N, coverage=N, background=N, layers=N, "
+          "depth-pixels=N, color-pixels=N, unseen=N, not-finite=N and pixels=N with commas between, pixels also as a "
+          "share such as "
+          "0.02%, found 'colour'\n");
+    CHECK(says({"--layout", "3x3"}) ==
+          "strata: --layout: expected WIDTHxHEIGHT:FORMAT such as 640x480:rgba8, bgra8, rgb10a2, rgb16, rgba32f, d24, "
+          "d24s8 or d32f, and :bottom-up if the lowest row comes first, :offset=BYTES for a header, :stride=BYTES from "
+          "row to "
+          "row, "
+          "found '3x3'\n");
     CHECK(says({"--heat", "heat.exr"}) == "strata: --heat: expected a file that ends in .png, found 'heat.exr'\n");
     CHECK(says({}) == "strata: a.raw: no such file\n");
     std::ofstream{folder / "a.raw"} << "abc";
