@@ -59,9 +59,9 @@ class FolderPage {
             page.heading(one.name);
             page.paragraph(oracle::line_of(one).substr(one.name.size() + 2));
             if (one.pictures.empty()) continue;
-            page.begin_pictures();
+            page.begin_row();
             for (const oracle::CasePicture& picture : one.pictures) page.png_picture(picture.png, picture.words);
-            page.end_pictures();
+            page.end_row();
         }
         if (left_out_ > 0)
             page.paragraph(std::to_string(left_out_) +

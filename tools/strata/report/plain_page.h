@@ -32,6 +32,9 @@ class PlainPage {
     void begin_pictures() { body_ += "<div class=\"beside\">\n<div class=\"pictures\">\n"; }
     void beside_pictures() { body_ += "</div>\n<div>\n"; }
     void end_pictures() { body_ += "</div>\n</div>\n"; }
+    // Pictures that stand next to each other, three in a row, until end_row().
+    void begin_row() { body_ += "<div class=\"pictures three\">\n"; }
+    void end_row() { body_ += "</div>\n"; }
     struct Swatch {
         std::array<std::uint8_t, 3> color;  // red, green, blue
         std::string words;
