@@ -63,11 +63,17 @@ struct ReadPicture {
     std::string failure{};
 };
 
-ReadPicture read(const std::function<Picture(const std::string&)>& reader, const std::string& path) {
+// Sentences name the picture by what it is: its path may be one of this machine.
+constexpr const char *the_reference = "the reference", *the_candidate = "the candidate";
+
+ReadPicture read(const std::function<Picture(const std::string&)>& reader, const std::string& path, const char* whose) {
     try {
-        return {.picture = reader(path)};
+        ReadPicture found{.picture = reader(path)};
+        found.picture->file = whose;
+        return found;
     } catch (const InputError& error) {
-        return {.failure = error.what()};
+        const std::string message = error.what();
+        return {.failure = message.starts_with(path) ? whose + message.substr(path.size()) : message};
     }
 }
 
@@ -108,8 +114,10 @@ ReferenceResult compare_with(const FolderQuestion& question, const Picture& refe
         return result;
     } catch (const InputError& error) {
         const bool is_size = has_other_size(reference, candidate);
+        const std::string before_size = std::string(the_candidate) + ": size: ";
         ReferenceResult result{.state = is_size ? CaseState::other_size : CaseState::unreadable,
                                .sentence = error.what()};
+        if (result.sentence.starts_with(before_size)) result.sentence.erase(0, before_size.size());
         if (question.has_pictures) result.pictures = case_pictures(reference, candidate);
         return result;
     }
@@ -125,10 +133,11 @@ FolderCase decide(const FolderQuestion& question, const NamedPictures& named) {
                                     : "the candidate's folder has no picture of this name";
         return decided;
     }
-    const ReadPicture candidate = read(question.read_candidate, path_in(question.candidate, named.candidate));
+    const ReadPicture candidate =
+        read(question.read_candidate, path_in(question.candidate, named.candidate), the_candidate);
     std::optional<ReferenceResult> best;
     for (const std::string& path : named.references) {
-        const ReadPicture reference = read(question.read_reference, path_in(question.reference, path));
+        const ReadPicture reference = read(question.read_reference, path_in(question.reference, path), the_reference);
         ReferenceResult found{.sentence = candidate.picture ? reference.failure : candidate.failure};
         if (candidate.picture && reference.picture)
             found = compare_with(question, *reference.picture, *candidate.picture);

@@ -93,6 +93,40 @@ TEST_CASE("patterns pair the pictures of one folder as test suites name them") {
     CHECK(run_strata(folder, more).out == "equal: 1 picture\nmenu: equal (baseline menu-expected@mac.ppm)\n");
 }
 
+TEST_CASE("the page of two folders names no path of this machine and shows 100 failed cases at most") {
+    const Folder folder;
+    for (int i = 0; i < 103; ++i) {
+        write(folder, "old/" + std::to_string(i) + ".ppm", ppm('a', 'b'));
+        write(folder, "new/" + std::to_string(i) + ".ppm", i == 0 ? "P6\n" : ppm('a', 'c'));
+    }
+    write(folder, "new/1.ppm", "P6\n1 1\n255\nabc");
+    const CommandResult ended =
+        run_strata(folder, {"compare", folder / "old", folder / "new", "--report", "page.html", "--junit", "c.xml"});
+    CHECK(ended.status == 1);
+    CHECK(lines_of(ended.out).at(0) ==
+          "different: 103 of 103 pictures fail: 101 different, 1 other size, 1 unreadable");
+    const std::string page = content_of(folder / "page.html");
+    CHECK_THAT(page, Contains("<p>3 more failed cases are shown in the table alone, to keep this page small.</p>"));
+    CHECK(number_of(page, "<h2>") == 101);
+    for (const std::string& text : {page, content_of(folder / "c.xml"), ended.out})
+        CHECK(text.find(folder.path().string()) == std::string::npos);
+}
+
+TEST_CASE("many pictures of two folders take no more memory than a few") {
+    const Folder folder;
+    const std::string pixels(std::size_t{3} * 256 * 256, 'a');
+    for (int i = 0; i < 64; ++i)
+        for (const char* name : {"old/", "new/"})
+            write(folder, name + std::to_string(i) + ".ppm", "P6\n256 256\n255\n" + pixels);
+    for (const char* name : {"few/0.ppm", "few/1.ppm"}) write(folder, name, "P6\n256 256\n255\n" + pixels);
+    const std::uint64_t few = peak_of_strata(folder, {"compare", "few", "few"});
+    const std::uint64_t many = peak_of_strata(folder, {"compare", "old", "new"});
+    INFO(few << " and " << many);
+    REQUIRE(few > 0);
+    // The codes of all pictures take 100 MB.
+    CHECK(many < few + (std::uint64_t{24} << 20));
+}
+
 TEST_CASE("folders that cannot be compared are refused with one sentence") {
     const Folder folder;
     write_folders(folder);
