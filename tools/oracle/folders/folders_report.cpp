@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scenes/printable.h"
 #include "tools/oracle/compare/report_json.h"
 
 namespace strata::oracle {
@@ -32,8 +33,9 @@ std::string failed_states(const FolderSummary& summary) {
 // The baseline that was fitted, where there are several.
 std::string fitted(const FolderCase& one) {
     if (one.references < 2 || one.candidate.empty()) return "";
-    return one.is_accepted() ? fmt::format(" (baseline {})", one.reference)
-                             : fmt::format(" (nearest of {} baselines: {})", one.references, one.reference);
+    return one.is_accepted()
+               ? fmt::format(" (baseline {})", scenes::printable(one.reference))
+               : fmt::format(" (nearest of {} baselines: {})", one.references, scenes::printable(one.reference));
 }
 
 ordered_json json_or_null(const std::string& text) { return text.empty() ? ordered_json(nullptr) : ordered_json(text); }
@@ -50,15 +52,14 @@ std::string first_line(const FolderSummary& summary) {
                        summary.of(CaseState::accepted) == 1 ? "s" : "");
 }
 
-std::string line_of(const FolderCase& one) {
-    return fmt::format("{}: {}{}{}{}", one.name, name(one.state), fitted(one), one.sentence.empty() ? "" : ": ",
-                       one.sentence);
+std::string words_of(const FolderCase& one) {
+    return fmt::format("{}{}{}{}", name(one.state), fitted(one), one.sentence.empty() ? "" : ": ", one.sentence);
 }
 
+std::string line_of(const FolderCase& one) { return fmt::format("{}: {}", scenes::printable(one.name), words_of(one)); }
+
 JunitCase junit_case(const FolderCase& one) {
-    return {.group = "strata.compare",
-            .name = one.name,
-            .failure = one.is_accepted() ? "" : fmt::format("{}{}: {}", name(one.state), fitted(one), one.sentence)};
+    return {.group = "strata.compare", .name = one.name, .failure = one.is_accepted() ? "" : words_of(one)};
 }
 
 ordered_json json_of(const FolderCase& one) {

@@ -11,7 +11,9 @@ namespace strata::oracle {
 
 // "different: 3 of 4 pictures fail: 1 different, 1 missing, 1 extra"
 [[nodiscard]] std::string first_line(const FolderSummary& summary);
-// "menu.png: different: 2 of 384 pixels differ by at most 3 codes; ..."
+// "different (nearest of 2 baselines: menu@mac.png): 2 of 384 pixels differ by at most 3 codes; ..."
+[[nodiscard]] std::string words_of(const FolderCase& one);
+// The name, then these words: "menu.png: different: 2 of 384 pixels differ by at most 3 codes; ..."
 [[nodiscard]] std::string line_of(const FolderCase& one);
 // A test case that fails unless the case is accepted.
 [[nodiscard]] JunitCase junit_case(const FolderCase& one);

@@ -57,7 +57,7 @@ class FolderPage {
         page.lead(first.substr(first.find(' ') + 1) + ".");
         for (const FolderCase& one : failed_) {
             page.heading(one.name);
-            page.paragraph(oracle::line_of(one).substr(one.name.size() + 2));
+            page.paragraph(oracle::words_of(one));
             if (one.pictures.empty()) continue;
             page.begin_row();
             for (const oracle::CasePicture& picture : one.pictures) page.png_picture(picture.png, picture.words);

@@ -127,5 +127,6 @@ TEST_CASE("test cases of a CI fail with the sentence of the case") {
     const FolderCase failed{.name = "a.png", .state = CaseState::missing, .sentence = "none"};
     CHECK(junit_case(failed).failure == "missing: none");
     CHECK(junit_case(failed).name == "a.png");
+    CHECK(line_of({.name = "a\nb.png"}) == "a\\x0ab.png: equal");
     CHECK(junit_case({.name = "b.png", .state = CaseState::accepted, .sentence = "some"}).failure.empty());
 }
