@@ -36,7 +36,10 @@ std::optional<std::vector<oracle::NamePattern>> to_patterns(std::string_view tex
 class FolderPage {
   public:
     void add(const FolderCase& one) {
-        table_.rows.push_back(row_of(one));
+        if (table_.rows.size() < most_rows)
+            table_.rows.push_back(row_of(one));
+        else
+            ++rows_left_out_;
         if (one.is_accepted()) return;
         std::size_t characters = 0;
         for (const oracle::CasePicture& picture : one.pictures) characters += picture.png.size() / 3 * 4;
@@ -68,11 +71,12 @@ class FolderPage {
                            " more failed cases are shown in the table alone, to keep this page small.");
         page.heading("All pictures");
         page.table(table_, "A heading sorts its column");
+        if (rows_left_out_ > 0) page.paragraph(std::to_string(rows_left_out_) + " more pictures have no row here.");
         return page;
     }
 
   private:
-    static constexpr std::size_t most_characters = 4'000'000, most_cases = 100;
+    static constexpr std::size_t most_characters = 4'000'000, most_cases = 100, most_rows = 5000;
 
     static std::vector<std::string> row_of(const FolderCase& one) {
         std::vector<std::string> row{one.name, std::string(name(one.state)),
@@ -91,7 +95,7 @@ class FolderPage {
 
     std::vector<FolderCase> failed_;
     Table table_{{{"name"}, {"result"}, {"reference"}, {"pixels that differ"}, {"at most, codes"}, {"sentence"}}, {}};
-    std::size_t characters_ = 0, left_out_ = 0;
+    std::size_t characters_ = 0, left_out_ = 0, rows_left_out_ = 0;
 };
 
 std::string folder_name(std::string path) {

@@ -1,7 +1,7 @@
 // tools/strata/compare/folders.h - compare on two folders of pictures: its options, text, page and other outputs.
 //
 // Rule     The page shows small pictures of the failed cases, in the order of names, until they take 4 million
-//          characters or 100 cases are shown; it says how many are left out. The table has all cases.
+//          characters or 100 cases are shown; it says how many are left out. The table has up to 5,000 cases.
 // Tests    tests/tools/strata/compare/compare_folders_test.cpp
 #pragma once
 #include <CLI/CLI.hpp>
