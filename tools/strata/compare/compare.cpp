@@ -246,7 +246,7 @@ int compare(const CompareOptions& options) {
 
 // Rejects options of two folders of pictures elsewhere, and the others on them.
 void check_folders(const CLI::App& app, const CompareOptions& options) {
-    if (is_scene(options.reference) || !std::filesystem::is_directory(options.reference)) {
+    if (is_scene(options.reference) || !is_folder(options.reference)) {
         for (const char* const name : {"--names", "--baselines"})
             if (app.count(name) > 0)
                 throw CLI::ValidationError(std::string(name) + " has no effect: no folders of pictures are compared");
@@ -290,7 +290,7 @@ void check_layout(const CompareOptions& options) {
                scenes::reader_of(file) == nullptr;
     };
     const bool reads_reference = !is_scene(options.reference);
-    if (!is_scene(options.reference) && std::filesystem::is_directory(options.reference)) return;
+    if (!is_scene(options.reference) && is_folder(options.reference)) return;
     if (options.candidate_layout && !is_raw(options.candidate))
         throw CLI::ValidationError("--candidate-layout has no effect: the candidate is no file of raw numbers");
     const bool is_for_candidate = is_raw(options.candidate) && !options.candidate_layout;

@@ -124,14 +124,19 @@ void add_folder_options(CLI::App& app, oracle::PictureNames& names) {
                to_patterns);
 }
 
+bool is_folder(const std::string& path) {
+    std::error_code unreadable;
+    return std::filesystem::is_directory(path, unreadable);
+}
+
 bool are_folders(const std::string& reference, const std::string& candidate) {
-    const bool is_first = std::filesystem::is_directory(reference),
-               is_second = std::filesystem::is_directory(candidate);
+    const bool is_first = is_folder(reference), is_second = is_folder(candidate);
+    std::error_code unreadable;
     if (is_first && !is_second) {
-        if (!std::filesystem::exists(candidate)) throw InputError(candidate, "no such folder");
+        if (!std::filesystem::exists(candidate, unreadable)) throw InputError(candidate, "no such folder");
         throw InputError(candidate, "type", "a folder, as the reference is", "a file");
     }
-    if (is_second && !is_first && std::filesystem::exists(reference))
+    if (is_second && !is_first && std::filesystem::exists(reference, unreadable))
         throw InputError(candidate, "type", "a picture, as the reference is", "a folder");
     return is_first && is_second;
 }

@@ -13,6 +13,8 @@ namespace strata::tools {
 
 // Adds --names and --baselines.
 void add_folder_options(CLI::App& app, oracle::PictureNames& names);
+// False for any path that cannot be looked up.
+[[nodiscard]] bool is_folder(const std::string& path);
 // True if both are folders. InputError if only one of two pictures is a folder.
 [[nodiscard]] bool are_folders(const std::string& reference, const std::string& candidate);
 

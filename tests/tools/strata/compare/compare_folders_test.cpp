@@ -139,6 +139,8 @@ TEST_CASE("folders that cannot be compared are refused with one sentence") {
     };
     CHECK(says({"none", "none"}) ==
           "strata: none: names: expected a picture in one of the two folders, found no file\n");
+    CHECK_THAT(says({std::string(5000, 'n'), "new"}), Contains("no such file"));
+    CHECK_THAT(says({"old", std::string(5000, 'n')}), Contains("no such folder"));
     CHECK(says({"old", "nowhere"}) == "strata: nowhere: no such folder\n");
     CHECK(says({"old", "new/one.ppm"}) ==
           "strata: new/one.ppm: type: expected a folder, as the reference is, found a file\n");
