@@ -59,6 +59,7 @@ struct RenderOptions {
     pipeline::Formulation formulation = pipeline::Formulation::resolved;
     Sort sort{};                        // the order in which triangles are submitted
     std::vector<std::string> sorted{};  // meshes or materials in front-to-back order, for hybrid; adds to the scene's
+    std::vector<std::string> offset_only{};  // meshes or materials that raster.polygon_offset moves; empty: all
     int max_passes = 0;
     pipeline::Execution execution = pipeline::Execution::replay;
     // Memory limit of replay for recorded fragments, in bytes. The audit has the same limit, but at least

@@ -8,6 +8,7 @@
 #include "pipeline/device/check.h"
 #include "pipeline/vertices/check_list.h"
 #include "pipeline/vertices/other_splits.h"
+#include "rasterizer/base/input_error.h"
 #include "rasterizer/set_up/check_input.h"
 
 namespace strata::peeling {
@@ -19,6 +20,16 @@ namespace {
 // True if a path needs r and q of the vertices.
 bool has_quotient(std::optional<rasterizer::DepthPath> path) {
     return path == rasterizer::DepthPath::perspective_rq || path == rasterizer::DepthPath::depth_replace;
+}
+
+// Throws InputError for a name of offset_only that no instance has.
+void check_names(const DrawList& list, const RenderOptions& options) {
+    for (const std::string& name : options.offset_only) {
+        const auto bears = [&](const Instance& instance) { return has_name(list, instance, name); };
+        if (std::ranges::none_of(list.instances, bears))
+            throw InputError("render options", "offset_only", "the name of a drawn mesh or of its material",
+                             "'" + name + "'");
+    }
 }
 
 }  // namespace
@@ -34,6 +45,7 @@ PreparedLists::PreparedLists(Settings settings) : s_{std::move(settings)} {
     rasterizer::check(s_.raster);
     check(s_.list);
     check(s_.view);
+    check_names(s_.list, s_.options);
     if (undrawable()) return;  // refused before a list is drawn
     // With --alpha all surfaces are transparent and there is no opaque list.
     const bool has_opaque =
@@ -99,6 +111,7 @@ PrepareOptions PreparedLists::prepare_options(Selection selection) const {
                            .tile_size = 0,
                            .threads = s_.options.threads,
                            .fog = s_.options.fog,
+                           .offset_only = s_.options.offset_only,
                            .alteration = s_.options.vertex_alteration,
                            .samples = samples()};
     if (s_.light == nullptr) return options;
@@ -151,9 +164,7 @@ void PreparedLists::prepare_second() {
 
 bool PreparedLists::arrives_sorted(const Instance& instance) const {
     // The user may name meshes or materials whose triangles are known to be in order.
-    const auto names = [&](const std::string& name) {
-        return name == s_.list.meshes[instance.mesh].name || name == s_.list.materials[instance.material].name;
-    };
+    const auto names = [&](const std::string& name) { return has_name(s_.list, instance, name); };
     return instance.arrives_sorted || std::any_of(s_.options.sorted.begin(), s_.options.sorted.end(), names);
 }
 

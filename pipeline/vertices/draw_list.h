@@ -93,6 +93,11 @@ struct DrawList {
     std::vector<Instance> instances;  // in submission order
 };
 
+// True if it is the name of the instance's mesh or material.
+[[nodiscard]] inline bool has_name(const DrawList& list, const Instance& instance, const std::string& name) {
+    return name == list.meshes[instance.mesh].name || name == list.materials[instance.material].name;
+}
+
 // A camera: both matrices stored by columns, and the path by which positions are transformed
 // (pipeline/reference/vertices.md 2).
 struct View {

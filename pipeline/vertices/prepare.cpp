@@ -69,6 +69,11 @@ constexpr std::size_t chunk = 1024;  // vertices or indices written per task
 // Whether a soup copies its meshes' indices or borrows them.
 enum class Indices : std::uint8_t { copied, lent };
 
+[[nodiscard]] bool takes_offset(const DrawList& list, const Instance& instance, std::span<const std::string> only) {
+    return only.empty() ||
+           std::ranges::any_of(only, [&](const std::string& name) { return has_name(list, instance, name); });
+}
+
 // Appends an instance's vertices, its indices from soup.indices[first_index] on if they are copied, and its run.
 void append(const DrawList& list, const Instance& instance, const View& view, const PrepareOptions& options,
             Indices indices, SoupVertices& vertices, std::size_t first_index, rasterizer::TriangleSoup& soup) {
@@ -92,7 +97,8 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
                          .mirrored = linear_determinant(instance.model) < 0,
                          .lent = indices == Indices::lent ? mesh.indices.data() : nullptr,
                          .first_vertex = base,
-                         .primitive = mesh.primitive});
+                         .primitive = mesh.primitive,
+                         .without_offset = !takes_offset(list, instance, options.offset_only)});
 }
 
 // The soup of the selected instances, whose vertices have no values yet.

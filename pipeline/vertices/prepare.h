@@ -129,6 +129,8 @@ struct PrepareOptions {
     std::optional<Fog> fog{};
     // The list has been checked (check_list.h) and has not changed since.
     bool is_checked = false;
+    // The meshes or materials that polygon offset moves, by name; empty: all.
+    std::span<const std::string> offset_only{};
     // Null: none.
     const VertexAlteration* alteration = nullptr;
     // Samples of a pixel, at the profile's positions; 1: the state says at which point.

@@ -60,6 +60,7 @@ struct TriangleRun {
     const std::uint32_t* lent = nullptr;
     std::uint32_t first_vertex = 0;
     Primitive primitive = Primitive::triangles;
+    bool without_offset = false;  // polygon offset does not move it
 };
 
 // The input of one draw. Runs refer to triples of `indices` or to borrowed ones; primitives are numbered through the
@@ -87,6 +88,7 @@ struct TriangleRecord {
     // apart, and `covered` has a bit for each covered pixel of the box: row by row, tiny_size bits per row. At least
     // one bit is set.
     bool is_tiny : 1 = false;
+    bool without_offset : 1 = false;  // as its run
     // 0 for a triangle whose edges alone decide. Bits 0 to 2: w of that corner is negative (WSigns::by_corner); the
     // bits above: the Shape.
     std::uint8_t special = 0;
@@ -94,6 +96,8 @@ struct TriangleRecord {
 
     [[nodiscard]] std::uint8_t negative_w() const noexcept { return special & 7; }
     [[nodiscard]] Shape shape() const noexcept { return static_cast<Shape>(special >> 3); }
+    // True if an enabled polygon offset moves it.
+    [[nodiscard]] bool takes_offset() const noexcept { return is_polygon(shape()) && !without_offset; }
     [[nodiscard]] static std::uint8_t special_of(Shape shape) noexcept {
         return static_cast<std::uint8_t>(static_cast<unsigned>(shape) << 3);
     }

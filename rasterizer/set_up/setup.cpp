@@ -37,6 +37,10 @@ template <std::size_t n>
 
 constexpr std::uint8_t all_corners = 7;
 
+[[nodiscard]] std::array<double, 3> given_z(const std::array<const WindowCorner*, 3>& corner) noexcept {
+    return {corner[0]->z, corner[1]->z, corner[2]->z};
+}
+
 // The sign of a piece's area (0 if it covers nothing), the box of pixels that it may cover, and whether it is known to
 // cover none of them.
 struct PieceShape {
@@ -181,7 +185,10 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
         out.triangles.pop_back();
         return Fate::uncovered;
     }
-    if (state_.polygon_offset.enabled) out.offset_z.push_back(with_offset(piece.corner));
+    if (state_.polygon_offset.enabled) {
+        out.triangles.back().without_offset = triangle.run->without_offset;
+        out.offset_z.push_back(triangle.run->without_offset ? given_z(piece.corner) : with_offset(piece.corner));
+    }
     if (rules_.plane_corners == PlaneCorners::given) out.given.push_back(triangle.vertex);
     return Fate::kept;
 }

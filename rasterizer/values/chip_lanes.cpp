@@ -28,7 +28,7 @@ NarrowWindowZ::NarrowWindowZ(const WindowZCorners& corners, const DepthHypothesi
 
 WindowZCorners window_z_corners(const Geometry& geometry, std::size_t triangle, const PolygonOffset& offset) noexcept {
     const TriangleRecord& record = geometry.triangles[triangle];
-    if (!offset.enabled || !is_polygon(record.shape())) return {geometry.depths(triangle), 0.0};
+    if (!offset.enabled || !record.takes_offset()) return {geometry.depths(triangle), 0.0};
     std::array<double, 3> z;
     for (std::size_t i = 0; i < 3; ++i) z[i] = geometry.corners[record.vertex[i]].z;
     const double slope = largest_slope(geometry.points(record), z, geometry.rules.subpixel_bits);

@@ -80,6 +80,10 @@ std::string polygon_offset_text(const rasterizer::PolygonOffset& offset) {
     return offset.enabled ? fmt::format("{},{}", offset.factor, offset.units) : "";
 }
 
+std::optional<std::vector<std::string>> to_names(std::string_view text) { return split(text, ','); }
+
+std::string names_text(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ",")); }
+
 constexpr const char* size_expected = "a number of pixels from 0 to 65536";
 
 std::optional<float> to_size_px(std::string_view text) {
@@ -177,9 +181,14 @@ std::vector<OptionField> depth_fields() {
             [](std::string_view text) { return to_vertex_paths(text, ','); }, vertex_paths_text),
         field<&PictureRequest::render, &RenderOptions::raster, &RasterState::polygon_offset>(
             depth,
-            {"polygon-offset", "FACTOR,UNITS", "glPolygonOffset of everything that is drawn (default: off)",
+            {"polygon-offset", "FACTOR,UNITS", "glPolygonOffset of triangles (default: off)",
              "two numbers such as 1,1, each from -16777216 to 16777216"},
             to_polygon_offset, polygon_offset_text),
+        field<&PictureRequest::render, &RenderOptions::offset_only>(
+            depth,
+            {"only", "NAME[,NAME...]", "meshes or materials that --polygon-offset moves (default: everything)",
+             "names of meshes or materials"},
+            to_names, names_text),
         choice<&PictureRequest::depth_order>(
             depth, "depth-order", depth_orders,
             "the depth test that keeps the nearer fragment; greater: reversed depth, near at 1 "
@@ -265,8 +274,7 @@ std::vector<OptionField> order_fields() {
                     {"sorted", "NAME[,NAME...]",
                      "meshes or materials that arrive front to back, for hybrid (default: those that the scene names)",
                      "names of meshes or materials"},
-                    [](std::string_view text) { return std::optional{split(text, ',')}; },
-                    [](const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ",")); })),
+                    to_names, names_text)),
         field<&PictureRequest::render, &RenderOptions::sort>(
             order,
             {"sort", "bucket:N|exact|none|reverse|shuffle:F,SEED",

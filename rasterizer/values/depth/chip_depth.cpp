@@ -16,9 +16,8 @@ void fill_by(const Rule& rule, const TriangleLanes& lanes, double* out) noexcept
     for (int i = 0; i < lanes.count; ++i) out[i] = rule.value(lanes.edge_values(i));
 }
 
-// Lines and points are not moved.
 [[nodiscard]] PolygonOffset offset_of(const DepthConstants& c, const DepthInput& in) noexcept {
-    return is_polygon(in.triangle.record.shape()) ? c.scale.chip.offset : PolygonOffset{};
+    return in.triangle.record.takes_offset() ? c.scale.chip.offset : PolygonOffset{};
 }
 
 // The intersection of viewport and scissor.

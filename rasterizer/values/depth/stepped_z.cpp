@@ -22,7 +22,7 @@ void fill_ordered_z(const LaneKernels& kernels, const TriangleFragments& f) noex
     const OrderedPlanes planes = ordered_planes(geometry, f.triangle.index);
     const FloatPlane plane = planes.depth();
     fill_plane(kernels, plane, f);
-    if (!geometry.state.polygon_offset.enabled) return;
+    if (!geometry.state.polygon_offset.enabled || !f.triangle.record.takes_offset()) return;
     const auto& [a, b, c] = f.triangle.record.vertex;
     const std::array z{geometry.corners[a].z, geometry.corners[b].z, geometry.corners[c].z};
     const float offset = planes.offset(plane, geometry.state.polygon_offset,
@@ -40,7 +40,7 @@ void fill_stepped_z(const DepthConstants& constants, const TriangleFragments& f)
     if (rules.plane_rule == PlaneRule::greatest_w) return fill_ordered_z(constants.kernels, f);
     const auto& [a, b, c] = f.triangle.record.vertex;
     const std::array corner{&geometry.corners[a], &geometry.corners[b], &geometry.corners[c]};
-    const bool adds_offset = offsets_planes(geometry.state, rules);
+    const bool adds_offset = offsets_planes(geometry.state, rules) && f.triangle.record.takes_offset();
     const auto units = static_cast<float>(constants.scale.z_units);
     const std::array<double, 3> moved = geometry.depths(f.triangle.index);
     std::array<float, 3> z;

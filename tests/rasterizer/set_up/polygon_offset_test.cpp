@@ -194,6 +194,37 @@ TEST_CASE("set-up adds a triangle's offset to the depth of its three corners and
     CHECK(wrong == 0);
 }
 
+TEST_CASE("set-up leaves the depths of a run without offset, of whole and of clipped triangles") {
+    TriangleSoup soup = random_soup(86, 60, SoupKind::perspective);
+    REQUIRE(soup.runs.size() == 2);
+    for (std::size_t i = 0; i < soup.vertices.size(); i += 7) soup.vertices[i].x *= 4;
+    RasterState state = scene_state(48, 48);
+    state.polygon_offset = {true, 1.25f, -7.0f};
+    for (const PlaneRule plane : {PlaneRule::exact, PlaneRule::reciprocal_area, PlaneRule::greatest_w}) {
+        RasterRules rules;
+        rules.plane_rule = plane;
+        rules.clip = ClipVolume::view_volume;
+        soup.runs[0].without_offset = false;
+        const Geometry all = set_up(soup, state, rules, 1);
+        soup.runs[0].without_offset = true;
+        const Geometry some = set_up(soup, state, rules, 1);
+        REQUIRE(all.counters.clipped > 0);
+        REQUIRE(some.triangles.size() == all.triangles.size());
+        std::uint64_t wrong = 0, kept = 0;
+        for (std::size_t i = 0; i < some.triangles.size(); ++i) {
+            const TriangleRecord& t = some.triangles[i];
+            const bool is_kept = t.material == soup.runs[0].material;
+            std::array<double, 3> given{};
+            for (std::size_t k = 0; k < 3; ++k) given[k] = some.corners[t.vertex[k]].z;
+            wrong += some.depths(i) != (is_kept ? given : all.depths(i)) || t.takes_offset() == is_kept ? 1 : 0;
+            kept += is_kept ? 1 : 0;
+        }
+        CHECK(wrong == 0);
+        CHECK(kept > 10);
+        CHECK(some.triangles.size() - kept > 10);
+    }
+}
+
 namespace {
 
 // A triangle in clip space (w is 1) and its offset in a frame of 64 x 64 pixels, a pixel, and the bits of the depths

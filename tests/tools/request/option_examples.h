@@ -30,6 +30,7 @@ inline const std::map<std::string, Texts>& option_examples() {
         {"compare-epsilon", {"1e-07", "0.5", "2ulp", "invalid", "-1", "2ulps", "16777217ulp", "1.5ulp"}},
         {"vertex-path", {"separate", "separate,fused", "invalid", "", "separate,separate,separate", "none"}},
         {"polygon-offset", {"0,0", "1,1", "-2.5,16777216", "invalid", "1", "1,16777218", "1,2,3"}},
+        {"only", {"a", "a,b c"}},
         {"line-width", {"0", "2.5", "65536", "invalid", "-1", "65537", "wide"}},
         {"point-size", {"0", "0.125", "65536", "invalid", "-0.5", "65537", "1px"}},
         {"depth-range", {"0,0.5", "1,0", "0.25,0.75", "invalid", "0", "0,2", "-0.1,1"}},

@@ -18,7 +18,7 @@ using rasterizer::TriangleSoup;
 using scenes::Element;
 using scenes::NumberArray;
 
-enum Flag : std::uint32_t { double_sided = 1, mirrored = 2 };
+enum Flag : std::uint32_t { double_sided = 1, mirrored = 2, without_offset = 4 };
 
 // A NumberArray with one row per item; fill(item, put) appends the row's values.
 template <class Items, class Fill>
@@ -72,7 +72,8 @@ void add_triangles(const TriangleSoup& soup, const auto& add) {
         for (std::uint32_t i = 0; i < run.index_count / 3; ++i) {
             materials.append(run.material);
             objects.append(run.object);
-            flags.append((run.double_sided ? double_sided : 0u) | (run.mirrored ? mirrored : 0u));
+            flags.append((run.double_sided ? double_sided : 0u) | (run.mirrored ? mirrored : 0u) |
+                         (run.without_offset ? without_offset : 0u));
         }
         corners.shape[0] += run.index_count / 3;
     }

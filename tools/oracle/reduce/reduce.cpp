@@ -49,6 +49,17 @@ void keep(Picture& picture, const Rect& window) {
     }
 }
 
+// Removes the names of --only that the scene no longer has; without one, the offset moves nothing.
+void forget_names(Golden& scene) {
+    peeling::RenderOptions& options = scene.options;
+    if (options.offset_only.empty()) return;
+    const pipeline::DrawList& list = scene.scene.list;
+    std::erase_if(options.offset_only, [&](const std::string& name) {
+        return std::ranges::none_of(list.instances, [&](const auto& i) { return has_name(list, i, name); });
+    });
+    if (options.offset_only.empty()) options.raster.polygon_offset = {};
+}
+
 // A scene of the search: triangles by their indices in the whole scene, and a window of the whole frame.
 struct Cut {
     std::vector<TriangleName> triangles{};
@@ -97,6 +108,7 @@ class Reducer {
     [[nodiscard]] Golden scene_of(const Cut& cut) const {
         Golden scene = whole_;
         scene.scene.list = oracle::cut(whole_.scene.list, cut.triangles);
+        forget_names(scene);
         auto& scissor = scene.options.raster.scissor;
         const Rect frame{0, 0, whole_.options.width, whole_.options.height};
         if (frame_ == FrameExtent::whole) {

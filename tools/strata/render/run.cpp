@@ -41,20 +41,28 @@ pipeline::View find_view(const RunOptions& options, const scenes::Scene& scene) 
     return scenes::orbit_view(scene.bounds, orbit.azimuth, orbit.elevation, aspect);
 }
 
-// Checks that the names of --sorted exist in the scene.
-void check_sorted(const RunOptions& options, const scenes::Scene& scene) {
+// Checks that the names of --sorted and --only exist in the scene.
+void check_names(const RunOptions& options, const scenes::Scene& scene) {
+    constexpr std::size_t most_listed = 12;
     std::vector<std::string> names;
     const auto add = [&](const std::string& name) {
         if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     };
-    // Meshes and materials share one list of names, because --sorted accepts both.
+    // Meshes and materials share one list of names, because both options accept both.
     for (const auto& mesh : scene.list.meshes) add(mesh.name);
     for (const auto& material : scene.list.materials) add(material.name);
-    for (const std::string& name : options.render.sorted)
-        if (std::find(names.begin(), names.end(), name) == names.end())
-            throw CLI::ValidationError("--sorted",
-                                       "expected a mesh or a material of the scene (strata scene lists them), found " +
-                                           found_but_near(name, names));
+    const std::string listed = names.empty() || names.size() > most_listed ? "strata scene lists them"
+                                                                           : fmt::format("{}", fmt::join(names, ", "));
+    const auto check = [&](const char* option, const std::vector<std::string>& given) {
+        for (const std::string& name : given)
+            if (std::find(names.begin(), names.end(), name) == names.end())
+                throw CLI::ValidationError(option, "expected a mesh or a material of the scene (" + listed +
+                                                       "), found " + found_but_near(name, names));
+    };
+    check("--sorted", options.render.sorted);
+    check("--only", options.render.offset_only);
+    if (!options.render.offset_only.empty() && !options.render.raster.polygon_offset.enabled)
+        throw CLI::ValidationError("--only is valid only with --polygon-offset");
 }
 
 // Warns if the scene has no triangles, or no transparent material and --alpha is not given: then no algorithm peels
@@ -144,7 +152,7 @@ Session open_session(RunOptions& options) {
         options.takes_own_view ? options.pack_convention.value_or(scenes::ClipConvention{}) : scenes::ClipConvention{};
     session.view = scenes::with_clip_convention(find_view(options, session.scene), own,
                                                 scenes::view_convention(options.render.raster));
-    check_sorted(options, session.scene);
+    check_names(options, session.scene);
     return session;
 }
 

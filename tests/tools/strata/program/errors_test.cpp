@@ -117,9 +117,15 @@ TEST_CASE("a wrong argument gives exit status 2 and one error message with the e
         {{"render", "teapot", "--formulation", "printed"},
          "strata: --formulation: expected resolved or published, found 'printed'"},
         {{"render", "volume-beam:slices=2", "--algorithm", "hybrid", "--sorted", "plane"},
-         "strata: --sorted: expected a mesh or a material of the scene (strata scene lists them), found 'plane' (did "
-         "you mean "
+         "strata: --sorted: expected a mesh or a material of the scene (planes, cone), found 'plane' (did you mean "
          "'planes'?)"},
+        {{"render", "volume-beam:slices=2", "--polygon-offset=-1,-1", "--only", "plane"},
+         "strata: --only: expected a mesh or a material of the scene (planes, cone), found 'plane' (did you mean "
+         "'planes'?)"},
+        {{"render", "showroom", "--polygon-offset=-1,-1", "--only", "sold"},
+         "strata: --only: expected a mesh or a material of the scene (strata scene lists them), found 'sold' (did you "
+         "mean 'solid'?)"},
+        {{"render", "volume-beam:slices=2", "--only", "planes"}, "strata: --only is valid only with --polygon-offset"},
         {{"reproduce", "carr2007", "-o", "page"},
          "strata: PAPER: expected carr2008, everitt2001 or bavoil2008, found 'carr2007' (did you mean 'carr2008'?)"},
         {{"reproduce", "everitt2001"}, "strata: --output is missing; strata reproduce --help says more"},
