@@ -37,8 +37,9 @@ struct ObjectDepths {
 // The bounds are widened by one code on either side, more than the rounding of the conversion can need.
 std::vector<ObjectDepths> objects_of(const Frame& frame) {
     const DepthFormat format = frame.key_request().format;
-    // The bounds of the list are in z; w_buffer has no bounds.
-    const bool is_bounded = frame.key_request().path != rasterizer::DepthPath::w_buffer;
+    // The bounds of the list are in z; w and its logarithm have no bounds.
+    const rasterizer::DepthPath path = frame.key_request().path;
+    const bool is_bounded = path != rasterizer::DepthPath::w_buffer && path != rasterizer::DepthPath::logarithmic;
     const auto code = [&](double z) { return to_depth_code(static_cast<float>(z), format, DepthRounding::nearest); };
     std::vector<ObjectDepths> objects;
     for (const DrawPart& part : frame.transparent->parts) {

@@ -101,6 +101,9 @@ std::optional<Refusal> check_order(const RenderOptions& options, DepthFormat for
     if (options.compare_epsilon.absolute != 0 || !options.quantize_reference)
         return Refusal{"reversed depth with an absolute compare epsilon or an unrounded compared depth", "",
                        "use --compare-epsilon Nulp"};
+    if (options.depth_path == rasterizer::DepthPath::logarithmic)
+        return Refusal{"logarithmic depth with GREATER, because it grows with the distance", "",
+                       "use --depth-order less"};
     if (casts_shadows)
         return Refusal{"reversed depth together with a light that casts shadows", "", "use --depth-order less"};
     return std::nullopt;
@@ -121,7 +124,7 @@ std::optional<Refusal> check_shading(const DeviceProfile& profile, const Algorit
                        "use --list-granularity sample, or neither alpha to coverage, sample coverage nor a sample mask",
                        algorithm.name};
     if (auto lacking = check_interpolation(profile, interpolation)) return lacking;
-    if (depth.path == rasterizer::DepthPath::depth_replace)
+    if (depth.path == rasterizer::DepthPath::depth_replace || rasterizer::is_written_by_program(depth.path))
         return Refusal{"per-pixel shading with replaced depth", "", "use --shading sample"};
     if (algorithm.compares_own_codes && !lists_pixels)
         return Refusal{"per-pixel shading, because it compares its own stored depths", "",
@@ -133,8 +136,10 @@ std::optional<Refusal> check_shading(const DeviceProfile& profile, const Algorit
 }
 
 bool compares_w_with_depth(const rasterizer::DepthRequest& depth) noexcept {
-    constexpr auto w = rasterizer::DepthPath::w_buffer;
-    return depth.reference && (depth.path == w) != (*depth.reference == w);
+    const auto differ = [&](rasterizer::DepthPath w) {
+        return depth.reference && (depth.path == w) != (*depth.reference == w);
+    };
+    return differ(rasterizer::DepthPath::w_buffer) || differ(rasterizer::DepthPath::logarithmic);
 }
 
 }  // namespace strata::peeling

@@ -27,7 +27,8 @@ void check_options(const RenderOptions& options);
                                                              const rasterizer::DepthRequest& depth,
                                                              const RenderOptions& options);
 
-// True if a w buffer, which stores w, is compared with another path's depth, which has another scale, or the reverse.
+// True if w (a w buffer) or its logarithm is compared with another path's depth, which has another scale, or the
+// reverse.
 [[nodiscard]] bool compares_w_with_depth(const rasterizer::DepthRequest& depth) noexcept;
 
 }  // namespace strata::peeling

@@ -3,6 +3,7 @@
 
 #include "peeling/frame/check_options.h"
 #include "peeling/registry.h"
+#include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/input_error.h"
 
 namespace strata::peeling {
@@ -16,9 +17,23 @@ std::optional<Refusal> check_w_buffer(const rasterizer::DepthRequest& request, b
     if (!is_perspective && (request.path == w || request.reference == w))
         return Refusal{"w buffer for a parallel projection, whose w is 1 everywhere", "",
                        "use depth path window_z, or a camera with perspective"};
-    if (compares_w_with_depth(request))
+    if (!compares_w_with_depth(request)) return std::nullopt;
+    if (request.path == w || request.reference == w)
         return Refusal{"comparison of w with a depth", "",
                        "use w_buffer for both: --depth-path w_buffer --reference-path w_buffer"};
+    return Refusal{"comparison of a logarithm with a depth", "",
+                   "use logarithmic for both: --depth-path logarithmic --reference-path logarithmic"};
+}
+
+std::optional<Refusal> check_logarithm(const rasterizer::DepthRequest& request, const View& view) {
+    constexpr auto log = rasterizer::DepthPath::logarithmic;
+    if (request.path != log && request.reference != log) return std::nullopt;
+    if (!has_perspective(view))
+        return Refusal{"logarithmic depth for a parallel projection, whose w is 1 everywhere", "",
+                       "use depth path float32, or a camera with perspective"};
+    if (log_scale_of(view) == 0)
+        return Refusal{"logarithmic depth for a projection without a far plane", "",
+                       "use depth path float32, or a camera with a far plane"};
     return std::nullopt;
 }
 
@@ -68,6 +83,7 @@ std::optional<Refusal> refusal_of(const Algorithm& algorithm, const FrameSetup& 
     if (auto lacking = check_size(profile, options.width, options.height)) return lacking;
     if (auto lacking = check_depth(profile, request)) return lacking;
     if (auto lacking = check_w_buffer(request, setup.is_perspective)) return lacking;
+    if (auto lacking = check_logarithm(request, setup.lists.settings().view)) return lacking;
     if (auto lacking = check_formats(algorithm, setup)) return lacking;
     if (auto lacking = check_order(options, setup.depth.format, casts_shadows)) return lacking;
     if (options.raster.depth_clamp)

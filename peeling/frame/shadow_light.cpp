@@ -62,10 +62,11 @@ LightMap drawn_map(const DrawList& list, const DeviceProfile& profile, const ras
 
 std::unique_ptr<const LightMap> light_map(const DrawList& list, const DeviceProfile& profile,
                                           const rasterizer::RasterState& eye, int threads) {
-    // The map is compared with z, so it must not contain w.
-    const bool writes_w = profile.raster.depth_path == rasterizer::DepthPath::w_buffer;
-    const rasterizer::DepthRequest depth{writes_w ? rasterizer::DepthPath::window_z : profile.raster.depth_path,
-                                         eye.depth_format};
+    // The map is compared with z, so it must contain neither w nor its logarithm.
+    rasterizer::DepthPath path = profile.raster.depth_path;
+    if (path == rasterizer::DepthPath::w_buffer) path = rasterizer::DepthPath::window_z;
+    if (path == rasterizer::DepthPath::logarithmic) path = rasterizer::DepthPath::float32;
+    const rasterizer::DepthRequest depth{path, eye.depth_format};
     if (!list.light || check_depth(profile, depth)) return nullptr;
     return std::make_unique<const LightMap>(drawn_map(list, profile, eye, depth, threads));
 }

@@ -179,6 +179,9 @@ std::optional<Refusal> check(const DeviceProfile& profile, rasterizer::DepthPath
     if (written == rasterizer::DepthPath::perspective_rq && !profile.has_fragment_programs)
         return Refusal{"fragment programs that write a depth", "ARB_fragment_program",
                        "use depth path depth_replace, which writes the same depth"};
+    if (rasterizer::is_written_by_program(written) && !profile.has_fragment_programs)
+        return Refusal{"fragment programs that write a depth", "ARB_fragment_program",
+                       way_out([](const DeviceProfile& p) { return p.has_fragment_programs; })};
     return check_reference(profile, written);
 }
 

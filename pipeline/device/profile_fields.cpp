@@ -111,7 +111,7 @@ constexpr std::string_view unmeasured = "[A] as geforce8_dx101";
 // section of the specification.
 constexpr std::array fields{
     integer<&Rules::subpixel_bits>(
-        "raster.subpixel_bits", {4, 12, 4},
+        "raster.subpixel_bits", {0, 12, 1},
         {"[M] coverage.md 1.2: hardware tests on NV2A; the minimum OpenGL allows",
          "[S] coverage.md 1.2: D3D 11.3 3.4.1", ours, drawn, "[M] swiftshader-rasterizer.md 1.1: SUBPIXEL_BITS"}),
     choice<&Rules::snap>("raster.snap", {"[M] coverage.md 4.1: 0.5624 lands on 0.5",

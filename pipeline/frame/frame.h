@@ -77,8 +77,11 @@ struct Frame {
 
     // The path and format of the depths that this frame compares.
     [[nodiscard]] rasterizer::DepthRequest key_request() const noexcept {
-        if (key == DepthKey::shader_z) return {rasterizer::DepthPath::float32, DepthFormat::d32f, depth.reference};
-        return depth;
+        using rasterizer::DepthPath;
+        if (key != DepthKey::shader_z) return depth;
+        // A program that writes the logarithm peels by it, too.
+        const bool is_log = depth.path == DepthPath::logarithmic;
+        return {is_log ? DepthPath::logarithmic : DepthPath::float32, DepthFormat::d32f, depth.reference};
     }
     [[nodiscard]] DepthCompare depth_compare() const noexcept {
         const rasterizer::DepthRequest request = key_request();

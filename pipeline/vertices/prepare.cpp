@@ -17,6 +17,7 @@
 #include "rasterizer/set_up/check_input.h"
 #include "rasterizer/set_up/depth_bound.h"
 #include "rasterizer/set_up/window.h"
+#include "rasterizer/values/depth/program_depth.h"
 
 namespace strata::pipeline {
 
@@ -217,6 +218,8 @@ float w_scale_of(const View& view, const rasterizer::RasterState& state) {
 
 }  // namespace
 
+float log_scale_of(const View& view) noexcept { return rasterizer::log_scale_of(far_w(view.projection)); }
+
 bool has_perspective(const View& view) noexcept { return view.projection[2][3] != 0; }
 
 rasterizer::TriangleSoup transform(const DrawList& list, const View& view, const PrepareOptions& options) {
@@ -256,6 +259,7 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     soup.extras = vertex_extras(list, view, state, rules, profile.fog, options);
     rasterizer::RasterState scaled = state;
     scaled.w_scale = w_scale_of(view, state);
+    if (state.log_scale == 0.0f) scaled.log_scale = log_scale_of(view);
     rasterizer::VertexSource source;
     if (!is_written) source = [&](std::size_t begin, auto out) { vertices.write(begin, out); };
     for (std::size_t sample = prepared.samples(); sample-- > 0;) {

@@ -140,6 +140,9 @@ struct PrepareOptions {
 // True if w depends on the distance from the eye, which a w buffer requires.
 [[nodiscard]] bool has_perspective(const View& view) noexcept;
 
+// RasterState::log_scale of the projection; 0 if it has no far plane.
+[[nodiscard]] float log_scale_of(const View& view) noexcept;
+
 // Transforms, lights, sets up and bins a list. Mirrored instances keep their winding and exchange their facing. Throws
 // InputError for an invalid list, view, state or profile (check_list.h, rasterizer/set_up/check_input.h).
 [[nodiscard]] PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::RasterState& state,

@@ -107,6 +107,8 @@ struct RasterState {
     bool range_culls_triangles = false;
     // Units of a w buffer per unit of clip w; 0: chosen so that w of the far plane is depth 1 (depth.md 4.8).
     float w_scale = 0.0f;
+    // 1 / log2(1 + w of the far plane), for DepthPath::logarithmic; 0: of the projection's far plane (depth.md 4.9).
+    float log_scale = 0.0f;
     // For single-sided triangles: double-sided ones are never culled.
     CullFace cull = CullFace::back;
     FrontFace front_face = FrontFace::counter_clockwise;

@@ -91,13 +91,21 @@ enum class DepthPath : std::uint8_t {
     float32,
     float32_plane,
     exact,
-    w_buffer  // w itself: w_buffer.h
+    w_buffer,     // w itself: w_buffer.h
+    logarithmic,  // written by a program, like the next: program_depth.h
+    packed_rgba8
 };
+
+// True for depths that a program writes, not the rasterizer.
+[[nodiscard]] constexpr bool is_written_by_program(DepthPath path) noexcept {
+    return path == DepthPath::logarithmic || path == DepthPath::packed_rgba8;
+}
 
 // The defaults are those of geforce8 (pipeline/reference/devices.md 2); a profile lists the differences.
 struct RasterRules {
-    // n of the subpixel grid of 1/2^n pixel: 4, 8 or 12.
-    int subpixel_bits = 8;
+    // n of the subpixel grid of 1/2^n pixel: 0 to 12. A Geometry's coordinates have 4, 8 or 12 bits, of which the last
+    // `unused_bits` are 0 in positions (with_coordinates).
+    int subpixel_bits = 8, unused_bits = 0;
     Snap snap = Snap::nearest_even;
     CoverageRule coverage = CoverageRule::snapped_edges;
     TieRule tie_rule = TieRule::top_left;  // for snapped edges

@@ -79,6 +79,7 @@ void check(const RasterState& state) {
     its.finite("depth_near", state.depth_near);
     its.finite("depth_far", state.depth_far);
     its.finite("w_scale", state.w_scale);
+    its.finite("log_scale", state.log_scale);
     its.finite("polygon_offset.factor", state.polygon_offset.factor);
     its.finite("polygon_offset.units", state.polygon_offset.units);
     its.within("clip_plane_count", state.clip_plane_count, 0, static_cast<int>(state.clip_planes.size()));

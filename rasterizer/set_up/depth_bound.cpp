@@ -72,7 +72,7 @@ double depth_bound(const Geometry& geometry, std::span<const std::uint32_t> tria
         return a > b ? a : b;
     };  // without a branch, unlike std::max of a list
     double greatest = -std::numeric_limits<double>::infinity(), size = 0.0;
-    const double subpixel = 1.0 / (1 << geometry.rules.subpixel_bits);
+    const double subpixel = 1.0 / (1 << (geometry.rules.subpixel_bits - geometry.rules.unused_bits));
     const bool has_spans = geometry.rules.coverage == CoverageRule::float_spans;
     const double beyond = has_spans ? 1.0 : geometry.rules.snap == Snap::nearest_even ? 0.5 * subpixel : subpixel;
     // Prefetch distance in triangles, because a list refers to triangles at scattered addresses.

@@ -173,7 +173,7 @@ RasterRules in_memory_rows(RasterRules rules, const RasterState& state) {
 Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& given_rules, int threads,
                 const VertexSource& source) {
     const FloatEnvironment ours;
-    const RasterRules rules = in_memory_rows(given_rules, state);
+    const RasterRules rules = with_coordinates(in_memory_rows(given_rules, state));
     check(state);
     check(soup);
     check(soup, state, rules);

@@ -37,10 +37,6 @@ template <std::size_t n>
 
 constexpr std::uint8_t all_corners = 7;
 
-[[nodiscard]] std::array<double, 3> given_z(const std::array<const WindowCorner*, 3>& corner) noexcept {
-    return {corner[0]->z, corner[1]->z, corner[2]->z};
-}
-
 // The sign of a piece's area (0 if it covers nothing), the box of pixels that it may cover, and whether it is known to
 // cover none of them.
 struct PieceShape {
@@ -185,10 +181,8 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
         out.triangles.pop_back();
         return Fate::uncovered;
     }
-    if (state_.polygon_offset.enabled) {
-        out.triangles.back().without_offset = triangle.run->without_offset;
-        out.offset_z.push_back(triangle.run->without_offset ? given_z(piece.corner) : with_offset(piece.corner));
-    }
+    out.triangles.back().without_offset = triangle.run->without_offset;
+    if (state_.polygon_offset.enabled) out.offset_z.push_back(with_offset(piece.corner, *triangle.run));
     if (rules_.plane_corners == PlaneCorners::given) out.given.push_back(triangle.vertex);
     return Fate::kept;
 }
@@ -213,10 +207,12 @@ int TriangleSetup::single_turn(const SourceTriangle& triangle) const noexcept {
 
 // Window z of the corners plus polygon offset: an exact sum, or with the roundings of stepped planes
 // (rasterizer/reference/coverage.md 9.4).
-std::array<double, 3> TriangleSetup::with_offset(const std::array<const WindowCorner*, 3>& corner) const noexcept {
+std::array<double, 3> TriangleSetup::with_offset(const std::array<const WindowCorner*, 3>& corner,
+                                                 const TriangleRun& run) const noexcept {
     const auto& [a, b, c] = corner;
     const std::array p{a->p, b->p, c->p};
     const std::array z{a->z, b->z, c->z};
+    if (run.without_offset) return {z[0], z[1], z[2]};
     if (rules_.plane_rule == PlaneRule::exact) {
         const double offset = polygon_offset(p, z, state_, rules_);
         return {z[0] + offset, z[1] + offset, z[2] + offset};

@@ -115,7 +115,8 @@ class TriangleSetup {
                (state_.cull != CullFace::none && (state_.cull == CullFace::front) == front);
     }
     [[nodiscard]] int single_turn(const SourceTriangle& triangle) const noexcept;
-    [[nodiscard]] std::array<double, 3> with_offset(const std::array<const WindowCorner*, 3>& corner) const noexcept;
+    [[nodiscard]] std::array<double, 3> with_offset(const std::array<const WindowCorner*, 3>& corner,
+                                                    const TriangleRun& run) const noexcept;
     [[nodiscard]] std::uint8_t negative_w(const std::array<const WindowCorner*, 3>& corner) const noexcept;
     [[nodiscard]] bool is_out_of_range(const std::array<const WindowCorner*, 3>& corner) const noexcept;
 

@@ -58,6 +58,15 @@ enum class VertexOrigin : std::uint8_t { given, made_by_clip };
     return static_cast<std::int32_t>((scaled + round_at_one) - round_at_one);
 }
 
+// The rules with coordinates of 4, 8 or 12 bits: a coarser grid of positions leaves the last ones unused. With 4 or
+// more of them the centre of a pixel and the points of its samples are coordinates.
+[[nodiscard]] constexpr RasterRules with_coordinates(RasterRules rules) noexcept {
+    const int grid = rules.subpixel_bits - rules.unused_bits;
+    rules.subpixel_bits = grid <= 4 ? 4 : grid <= 8 ? 8 : 12;
+    rules.unused_bits = rules.subpixel_bits - grid;
+    return rules;
+}
+
 // Scale and offset of each axis for one draw. Those of depth are computed in binary64 and rounded once to binary32
 // (coverage.md 3.1).
 class WindowTransform {
@@ -104,8 +113,7 @@ class WindowTransform {
     // The snapped position minus the sample's offset from the centre, so that evaluation at the centre gives the value
     // at the sample (coverage.md 12.1).
     [[nodiscard]] constexpr SubpixelPoint snapped(const WindowVertex& v) const noexcept {
-        const std::int32_t x = snap(v.x, rules_.subpixel_bits, rules_.snap) + half_;
-        const std::int32_t y = snap(v.y, rules_.subpixel_bits, rules_.snap) + half_;
+        const std::int32_t x = on_grid(v.x) + half_, y = on_grid(v.y) + half_;
         return at_sample({x, is_turned_ ? (rows_ << rules_.subpixel_bits) - y : y});
     }
     [[nodiscard]] constexpr SubpixelPoint at_sample(SubpixelPoint p) const noexcept {
@@ -128,7 +136,9 @@ class WindowTransform {
             const float at = is_done_ ? c : map(axis, divided, rules_.viewport == ViewportArithmetic::fused);
             const double scaled = double{at} * (1 << rules_.subpixel_bits);
             if (!(scaled < 0x1p31 && scaled >= -0x1p31)) return std::numeric_limits<std::int32_t>::min();
-            return wrapped(snap(static_cast<float>(scaled), 0, rules_.snap), half_ - (1 << (rules_.subpixel_bits - 1)));
+            const std::int32_t unit = 1 << rules_.unused_bits;
+            return wrapped(snap(static_cast<float>(scaled / unit), 0, rules_.snap) * unit,
+                           half_ - (1 << (rules_.subpixel_bits - 1)));
         };
         return {place(x_, v.x), place(y_, v.y)};
     }
@@ -140,7 +150,7 @@ class WindowTransform {
     // than those rules can express.
     [[nodiscard]] constexpr std::optional<PlainVertexRules> plain_rules(ClipDepth depth) const noexcept {
         if (is_done_ || rules_.w_divide == WDivide::nv20 || rules_.viewport != ViewportArithmetic::separate ||
-            is_turned_)
+            is_turned_ || rules_.unused_bits != 0)
             return {};
         const auto reach = [this](const Axis& axis) {
             const auto size = [](float v) { return v < 0.0f ? -v : v; };
@@ -158,6 +168,9 @@ class WindowTransform {
     }
 
   private:
+    [[nodiscard]] constexpr std::int32_t on_grid(float v) const noexcept {
+        return snap(v, rules_.subpixel_bits - rules_.unused_bits, rules_.snap) * (1 << rules_.unused_bits);
+    }
     struct Axis {
         float scale, offset;
     };

@@ -13,8 +13,8 @@ namespace {
 // Codes of float32, codes of D32F by any path, and references are computed from shader_z.
 [[nodiscard]] bool reads_shader_z(const DepthRequest& depth, const FragmentNeeds& needs) noexcept {
     const bool is_float = depth.format == DepthFormat::d32f;
-    return needs.shader_z || (needs.code && (depth.path == DepthPath::float32 || is_float)) ||
-           (needs.exact_code && is_float) || needs.reference;
+    const bool is_of_z = depth.path == DepthPath::float32 || depth.path == DepthPath::packed_rgba8;
+    return needs.shader_z || (needs.code && (is_of_z || is_float)) || (needs.exact_code && is_float) || needs.reference;
 }
 
 }  // namespace
@@ -32,7 +32,10 @@ DepthSteps::DepthSteps(const DepthConstants& constants, const Geometry& geometry
                  : compared_ != stored_      ? Reference::other_path
                  : stored_.converts_values() ? Reference::is_stored
                                              : Reference::values},
-      rejects_{depth.path == DepthPath::depth_replace && !geometry.state.depth_clamp} {}
+      rejects_{depth.path == DepthPath::depth_replace && !geometry.state.depth_clamp},
+      is_own_order_{depth.path == DepthPath::logarithmic} {
+    needs_.code |= is_own_order_;
+}
 
 int DepthSteps::fill(const DepthConstants& constants, const TriangleFragments& f) const {
     fill_weights(constants.kernels, f);
@@ -54,7 +57,10 @@ int DepthSteps::fill(const DepthConstants& constants, const TriangleFragments& f
     if (needs_.code || rejects_) fallbacks += fill_stored(constants, input, f);
     lanes.count = f.count();
     if (reference_ != Reference::not_needed) fallbacks += fill_reference(constants, input, f);
-    if (needs_.exact_code) fallbacks += exact_codes(constants, input, &f.batch.exact_code[f.first]);
+    if (needs_.exact_code && is_own_order_)
+        std::copy_n(&f.batch.code[f.first], lanes.count, &f.batch.exact_code[f.first]);
+    else if (needs_.exact_code)
+        fallbacks += exact_codes(constants, input, &f.batch.exact_code[f.first]);
     return fallbacks;
 }
 
@@ -66,6 +72,9 @@ int DepthSteps::fill_stored(const DepthConstants& constants, const DepthInput& i
     double* const depth = reference_ == Reference::is_stored ? &f.batch.reference_z[f.first] : own.data();
     const int fallbacks = stored_.values(constants, input, depth);
     if (rejects_) drop_rejected(constants.scale, f, depth);
+    for (int i = 0; is_own_order_ && i < f.count(); ++i)
+        f.batch.shader_z[f.first + static_cast<std::size_t>(i)] =
+            static_cast<float>(depth[i] / constants.scale.code_units);
     if (needs_.code) to_codes(depth, f.count(), constants.scale.value_to_code, code);
     return fallbacks;
 }

@@ -62,7 +62,8 @@ class DepthSteps {
     FragmentNeeds needs_;
     ShaderZ shader_z_;
     Reference reference_;
-    bool rejects_;  // depth_replace without depth clamp: fragments outside the depth range are dropped
+    bool rejects_;       // depth_replace without depth clamp: fragments outside the depth range are dropped
+    bool is_own_order_;  // logarithmic: shader_z and the exact code are this depth, because codes of z are too coarse
 };
 
 }  // namespace strata::rasterizer

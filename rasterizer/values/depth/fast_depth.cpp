@@ -90,7 +90,7 @@ FastDepth select_fast_depth(const DepthConstants& constants, const Geometry& geo
                             const FragmentNeeds& needs) noexcept {
     const RasterRules& rules = geometry.rules;
     const DepthScale& scale = constants.scale;
-    if (needs.exact_code) return {};
+    if (needs.exact_code || depth.path == DepthPath::logarithmic) return {};
     const bool is_stepped = rules.plane_rule != PlaneRule::exact;
     const bool is_float32 = depth.path == DepthPath::float32;
     const bool stores_chip_z = depth.path == DepthPath::window_z && is_chip(depth.path, rules.hypothesis);

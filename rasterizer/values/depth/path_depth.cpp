@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rasterizer/values/depth/code_lanes.h"
+#include "rasterizer/values/depth/program_depth.h"
 #include "rasterizer/values/depth_paths.h"
 
 namespace strata::rasterizer {
@@ -40,6 +41,26 @@ int rounded_plane_values(const DepthConstants& c, const DepthInput& in, double* 
 int plane_values(const DepthConstants& c, const DepthInput& in, double* out) noexcept {
     plane_depth(in.corners, in.lanes, out);
     to_buffer_units(c.scale, in.lanes.count, out);
+    return 0;
+}
+
+// v = 1 + w as a perspective attribute.
+int logarithmic_values(const DepthConstants& c, const DepthInput& in, double* out) noexcept {
+    const Geometry& geometry = in.triangle.geometry;
+    std::array<float, 3> v;
+    for (std::size_t i = 0; i < 3; ++i) v[i] = 1.0f + in.corners.w[i];
+    Lanes<float> interpolated;
+    const int fallbacks =
+        interpolate(v, in.corners.inverse_w, in.lanes, geometry.rules.hypothesis, interpolated.data());
+    for (int i = 0; i < in.lanes.count; ++i)
+        out[i] = double{logarithmic_depth(interpolated[static_cast<std::size_t>(i)], geometry.state.log_scale)} *
+                 c.scale.code_units;
+    return fallbacks;
+}
+
+int packed_values(const DepthConstants& c, const DepthInput& in, double* out) noexcept {
+    for (int i = 0; i < in.lanes.count; ++i)
+        out[i] = double{unpack_depth(pack_depth(in.shader_z[i]))} * c.scale.code_units;
     return 0;
 }
 
@@ -99,6 +120,8 @@ PathDepth select_path(DepthPath path, const DepthHypothesis& hypothesis) noexcep
         case DepthPath::depth_replace: return {quotient, nullptr};
         case DepthPath::w_buffer: return {w_buffer_values, w_buffer_codes};
         case DepthPath::exact: return exact;
+        case DepthPath::logarithmic: return {logarithmic_values, nullptr};
+        case DepthPath::packed_rgba8: return {packed_values, nullptr};
         case DepthPath::window_z: break;
     }
     switch (hypothesis.window_z) {

@@ -23,7 +23,8 @@ struct DepthConstants {
     DepthScale scale;
 };
 
-// A triangle and some of its fragments. `shader_z` is read only by float32, and by the codes of `exact` in D32F.
+// A triangle and some of its fragments. `shader_z` is read only by float32 and packed_rgba8, and by the
+// codes of `exact` in D32F.
 struct DepthInput {
     const SetupTriangle& corners;
     const DrawnTriangle& triangle;

@@ -192,7 +192,8 @@ const std::vector<NamesOfField> choice_names{
     {"raster.sample_divisor", {"sample", "centre"}},
     {"raster.window_z", {"unit_interval", "buffer_units"}},
     {"raster.depth_path",
-     {"window_z", "perspective_rq", "depth_replace", "float32", "float32_plane", "exact", "w_buffer"}},
+     {"window_z", "perspective_rq", "depth_replace", "float32", "float32_plane", "exact", "w_buffer", "logarithmic",
+      "packed_rgba8"}},
     {"raster.depth_rounding", {"floor", "nearest", "product_even", "product_floor"}},
     {"raster.depth_limits", {"clamp", "wrap", "zero_to_one"}},
     {"raster.offset_unit", {"format", "float_exponent", "buffer", "two_codes", "differences"}},
@@ -340,7 +341,9 @@ TEST_CASE("setting a choice sets the member that its key names to the enumerator
     CHECK((set("denormals", "keep") && p.denormals == DenormalRule::keep));
     CHECK((set("texture_filter", "unorm8") && p.texture_filter == TextureFilterPrecision::unorm8));
     CHECK((set("fog", "bytes") && p.fog == FogRule::bytes));
-    CHECK_FALSE(set("raster.subpixel_bits", "6"));
+    CHECK_FALSE(set("raster.subpixel_bits", "13"));
+    CHECK_FALSE(set("raster.subpixel_bits", "-1"));
+    CHECK((set("raster.subpixel_bits", "0") && p.raster.subpixel_bits == 0));
     CHECK((set("raster.subpixel_bits", "12") && p.raster.subpixel_bits == 12));
 }
 

@@ -125,8 +125,8 @@ TEST_CASE("a view and a profile with an undefined value are rejected") {
                       "toward_zero, nv20, found 6");
     for (const DeviceProfile& profile : builtin_profiles()) CHECK_NOTHROW(check(profile));
     DeviceProfile profile = *find_profile("geforce3");
-    profile.raster.subpixel_bits = 6;
-    CHECK_THROWS_WITH(check(profile), "profile: raster.subpixel_bits: expected 4 to 12 in steps of 4, found 6");
+    profile.raster.subpixel_bits = 13;
+    CHECK_THROWS_WITH(check(profile), "profile: raster.subpixel_bits: expected 0 to 12, found 13");
     profile.raster.subpixel_bits = 4;
     profile.raster.tie_rule = static_cast<strata::rasterizer::TieRule>(4);
     CHECK_THROWS_WITH(check(profile), "profile: raster.tie_rule: expected 0 to 3, found 4");

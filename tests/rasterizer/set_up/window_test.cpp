@@ -262,3 +262,40 @@ TEST_CASE("depth ranges map clip depth as specified and reversed and in buffer u
         CHECK(z(2.0f, units) == 0.25f);  // a float buffer has no units
     }
 }
+
+TEST_CASE("a grid of 0 to 12 bits gives the fragments of vertices that were rounded to it before") {
+    for (int bits = 0; bits <= 12; ++bits)
+        for (const Snap rule : {Snap::nearest_even, Snap::toward_zero}) {
+            Random random{59};
+            TriangleSoup given, rounded;
+            const Rational unit = power(-bits);
+            for (std::uint32_t i = 0; i < 90; ++i) {
+                const float x = random_float(random, 1, 31), y = random_float(random, 1, 31),
+                            z = random_float(random, 0, 1);
+                const auto on_grid = [&](float v) {
+                    const Rational scaled = Rational{v} / unit;
+                    Integer n = floor(scaled);
+                    const Rational rest = scaled - Rational{n}, half{1, 2};
+                    if (rule == Snap::nearest_even && (rest > half || (rest == half && (n & 1) != 0))) ++n;
+                    return nearest_float(Rational{n} * unit);
+                };
+                given.vertices.push_back({.x = x, .y = y, .z = z});
+                rounded.vertices.push_back({.x = on_grid(x), .y = on_grid(y), .z = z});
+                given.indices.push_back(i);
+                rounded.indices.push_back(i);
+            }
+            given.runs = rounded.runs = {{.index_count = 90}};
+            RasterState state = state_of({0, 0, 32, 32});
+            state.window_positions = true;  // positions in pixels, without a viewport
+            RasterRules fine{.subpixel_bits = 12, .snap = rule}, own{.subpixel_bits = bits, .snap = rule};
+            const Geometry set = set_up(given, state, own, 1);
+            const auto found = draw(set, {DepthPath::float32, DepthFormat::d32f}).fragments;
+            const auto expected =
+                draw(set_up(rounded, state, fine, 1), {DepthPath::float32, DepthFormat::d32f}).fragments;
+            INFO(bits << " bits");
+            CHECK(found.size() > 500);
+            CHECK(by_pixel(found) == by_pixel(expected));
+            CHECK(set.rules.subpixel_bits - set.rules.unused_bits == bits);
+            CHECK(set.rules.subpixel_bits % 4 == 0);
+        }
+}

@@ -61,5 +61,8 @@ row bias.png "$work"/errors.{0,1,2,3}.png
 build/release/strata render wireframe "${view[@]:1}" --background 1,1,1 --algorithm unsorted,dual -o "$work/wireframe.png" >/dev/null
 row wireframe.png "$work/wireframe.unsorted.png" "$work/wireframe.dual.png"
 
+# A decal by an offset of its own, and distant surfaces by three depth buffers (how-to.md).
+/usr/bin/python3 tools/docs/pictures/depths.py build/release/strata
+
 # A report in a browser.
 /usr/bin/python3 tools/docs/pictures/report.py build/release/strata

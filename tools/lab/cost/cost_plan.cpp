@@ -51,7 +51,7 @@ void set_depth_path(CostCell& cell, rasterizer::DepthPath path) {
     using rasterizer::DepthPath;
     cell.options.depth_path = path;
     if (path == DepthPath::depth_replace) open(cell, &pipeline::DeviceProfile::has_depth_replace, "depth_replace");
-    if (path == DepthPath::perspective_rq)
+    if (path == DepthPath::perspective_rq || rasterizer::is_written_by_program(path))
         open(cell, &pipeline::DeviceProfile::has_fragment_programs, "fragment programs");
     const bool is_chip = path == DepthPath::window_z || path == DepthPath::w_buffer;
     if (!is_chip || cell.profile.raster.window_z == rasterizer::WindowZ::buffer_units) return;

@@ -15,12 +15,14 @@
 #include <memory>
 
 #include "rasterizer/base/input_error.h"
+#include "scenes/files/atomic_file.h"
 #include "scenes/files/image_io.h"
 #include "scenes/files/text_file.h"
 #include "tools/lab/commands.h"
 #include "tools/lab/invariance/invariance_cell.h"
 #include "tools/lab/invariance/invariance_row.h"
 #include "tools/lab/invariance/invariance_summary.h"
+#include "tools/lab/invariance/precision.h"
 #include "tools/lab/sweep/sweep.h"
 #include "tools/request/choices.h"
 #include "tools/strata/options/options.h"
@@ -99,6 +101,7 @@ struct InvarianceOptions {
     std::string plan;
     Shard shard;
     bool dry_run = false, images = true, hypotheses = false;
+    std::optional<DepthSpan> precision{};
 };
 
 // depth_format becomes --depth-format.
@@ -173,7 +176,21 @@ void check_memory_of(const InvarianceOptions& options, const std::vector<Cell>& 
     }
 }
 
+// Writes FOLDER/precision.csv and prints its rows.
+int measure_precision(const InvarianceOptions& options) {
+    if (!options.run.scene.empty() || !options.plan.empty() || !options.keys.empty())
+        throw CLI::ValidationError("--precision takes neither a scene nor a plan");
+    const std::string csv = precision_csv(*options.precision);
+    if (const std::string& folder = options.run.output; !folder.empty()) {
+        std::filesystem::create_directories(folder);
+        scenes::write_file(folder + "/precision.csv", csv);
+    }
+    print(titled(precision_table(csv)));
+    return 0;
+}
+
 int invariance(InvarianceOptions& options) {
+    if (options.precision) return measure_precision(options);
     if (options.run.output.empty() && !options.dry_run)
         throw CLI::ValidationError("-o is missing: the folder for the results");
     if (!options.run.scene.empty()) options.keys["scene"] = {options.run.scene};
@@ -187,12 +204,26 @@ int invariance(InvarianceOptions& options) {
     return run_sweep(sweep, options.run.output, options.shard);
 }
 
+std::optional<DepthSpan> to_span(std::string_view text) {
+    const auto parts = split(text, ':');
+    if (parts.size() != 2) return std::nullopt;
+    const auto near = to_number<double>(parts[0]), far = to_number<double>(parts[1]);
+    if (!near || !far || *near < 1e-12 || *far > 1e12 || *near >= *far) return std::nullopt;
+    return DepthSpan{*near, *far};
+}
+
 void add_sweep_options(CLI::App& app, InvarianceOptions& options) {
     add_path(app, options.plan, {"--plan", "FILE", "a JSON plan (tools/lab/invariance/README.md)", "a file name"});
     add_path(app, options.run.output,
              {"-o,--output", "FOLDER", "folder for results.jsonl, results.csv, timings.jsonl and images/", "a folder"});
     add_shard_option(app, options.shard);
     app.add_flag("--hypotheses", options.hypotheses, "every hypothesis about the device: the same as --hypothesis all");
+    add_option(app, options.precision,
+               {"--precision", "NEAR:FAR",
+                "how close two surfaces may be for each depth buffer, by their distance from the eye: a table in units "
+                "of the scene, and with -o precision.csv",
+                "two distances such as 0.1:10000, from 1e-12 to 1e12"},
+               to_span);
     app.add_flag("--dry-run", options.dry_run, "print the rows and how long they would take, without measuring them");
     app.add_flag_callback(
         "--no-images", [&options] { options.images = false; }, "no pictures of cells with errors");

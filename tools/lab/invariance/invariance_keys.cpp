@@ -66,7 +66,7 @@ bool set_pair(Cell& cell, const std::string& text) {
 bool set_subpixel_bits(Cell& cell, const std::string& text) {
     if (text == "profile") return cell.subpixel_bits = 0, true;
     const auto bits = to_int(text);
-    return bits && (*bits == 4 || *bits == 8 || *bits == 12) && assign(cell.subpixel_bits, bits);
+    return bits && *bits >= 1 && *bits <= 12 && assign(cell.subpixel_bits, bits);
 }
 
 // orbit, ratio:R or NEAR:FAR. The orbit's far plane is at 3.6 radii and its sphere begins at 1.5: for a ratio of at
@@ -146,7 +146,7 @@ std::vector<PlanKey> make_keys() {
          "two depth paths with a colon between, such as window_z:perspective_rq", "window_z:perspective_rq", set_pair},
         {"depth_format", "depth buffers", "d16, d24, d32f, d16f or d24f", "d16,d24",
          [](Cell& c, const std::string& t) { return assign(c.format, to_choice(depth_formats, t)); }},
-        {"subpixel_bits", "grids of window positions", "profile, 4, 8 or 12", "profile", set_subpixel_bits},
+        {"subpixel_bits", "grids of window positions", "profile, or 1 to 12", "profile", set_subpixel_bits},
         {"near_far", "near and far planes: orbit (those of the orbiting view), ratio:R (far / near), or NEAR:FAR",
          "orbit, ratio:R with R from 2.6, or NEAR:FAR with 0 < NEAR < FAR", "orbit", set_range},
         {"remedy",

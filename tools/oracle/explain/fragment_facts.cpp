@@ -37,8 +37,11 @@ peeling::PreparedLists prepared(const peeling::FrameRequest& input, pipeline::De
                                    .depth = {DepthPath::exact, format, DepthPath::perspective_rq}}};
 }
 
-// window_z and w_buffer follow the rules of the NV2A chip.
+// window_z and w_buffer follow the rules of the NV2A chip; a logarithm needs a far plane.
 bool has_path(const peeling::FrameRequest& input, DepthPath path, pipeline::DepthFormat format) {
+    if (path == DepthPath::logarithmic)
+        return pipeline::has_perspective(input.view) && pipeline::log_scale_of(input.view) != 0 &&
+               input.options.raster.depth_order == rasterizer::DepthOrder::less;
     const bool has_chip_rule = input.profile.raster.window_z == rasterizer::WindowZ::buffer_units;
     if (path != DepthPath::window_z && path != DepthPath::w_buffer) return true;
     const bool has_w = path == DepthPath::window_z || pipeline::has_perspective(input.view);

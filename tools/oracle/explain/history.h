@@ -28,12 +28,13 @@ struct FragmentFact {
     std::uint32_t code = 0;                       // in the algorithm's key format
     bool front_facing = true, is_masked = false;  // masked: discarded by its material's alpha test
     // Per depth path, in the frame's depth format; empty if the format or device does not support the path.
-    std::array<std::optional<std::uint32_t>, 7> path_codes{};
+    std::array<std::optional<std::uint32_t>, 9> path_codes{};
 };
 
 // Names as in options.
-inline constexpr std::array<std::string_view, 7> depth_path_names{
-    "window_z", "perspective_rq", "depth_replace", "float32", "float32_plane", "exact", "w_buffer"};
+inline constexpr std::array<std::string_view, 9> depth_path_names{"window_z", "perspective_rq", "depth_replace",
+                                                                  "float32",  "float32_plane",  "exact",
+                                                                  "w_buffer", "logarithmic",    "packed_rgba8"};
 
 enum class Fate : std::uint8_t {
     passed,

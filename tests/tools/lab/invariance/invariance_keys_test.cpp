@@ -70,8 +70,8 @@ TEST_CASE("numbers of a plan are accepted up to their limits inclusive") {
     CHECK(otherwise("orbit", false, {"30", "30,20,10", "30,", "nan,0"}) == "");
     CHECK(otherwise("alpha", true, {"0", "1", "0.5"}) == "");
     CHECK(otherwise("alpha", false, {"-0.001", "1.001", "", "nan", "half"}) == "");
-    CHECK(otherwise("subpixel_bits", true, {"profile", "4", "8", "12"}) == "");
-    CHECK(otherwise("subpixel_bits", false, {"0", "3", "5", "6", "16", "", "Profile"}) == "");
+    CHECK(otherwise("subpixel_bits", true, {"profile", "1", "4", "7", "8", "12"}) == "");
+    CHECK(otherwise("subpixel_bits", false, {"0", "13", "4.5", "16", "", "Profile"}) == "");
     CHECK(otherwise("near_far", true, {"orbit", "ratio:2.6", "ratio:1e12", "1e-12:1e12", "1:1.0000001"}) == "");
     CHECK(otherwise(
               "near_far", false,

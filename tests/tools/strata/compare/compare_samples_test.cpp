@@ -9,17 +9,18 @@ namespace {
 
 using namespace strata::test;
 
-const std::string scene = "random:seed=3,triangles=60";
+const std::string sampled_scene = "random:seed=3,triangles=60";
 
 void draw(const Folder& folder, const std::string& options) {
-    REQUIRE(shell(folder, "strata render " + scene +
+    REQUIRE(shell(folder, "strata render " + sampled_scene +
                               " --size 32x24 --samples 4 --background 0.2,0.3,0.5 --no-audit -q -o port.png " + options)
                 .status == 0);
 }
 
 [[nodiscard]] CommandResult judged(const Folder& folder, std::vector<std::string> with,
                                    const std::string& background = "0.2,0.3,0.5") {
-    std::vector<std::string> compare{"compare", scene, "port.png", "--samples", "4", "--background", background};
+    std::vector<std::string> compare{"compare", sampled_scene,  "port.png", "--samples",
+                                     "4",       "--background", background};
     compare.insert(compare.end(), with.begin(), with.end());
     return run_strata(folder, compare);
 }
@@ -56,10 +57,10 @@ TEST_CASE("a resolved picture is right with the origin at either corner and with
         for (const std::string more :
              {"--origin lower-left", "--origin lower-left --shading pixel", "--shading pixel"}) {
             const std::string options = " --size 32x49 --profile ideal --color-format rgba8 --samples " + samples;
-            REQUIRE(shell(folder,
-                          "strata render " + scene + options + " --algorithm dual --no-audit -q -o port.png " + more)
+            REQUIRE(shell(folder, "strata render " + sampled_scene + options +
+                                      " --algorithm dual --no-audit -q -o port.png " + more)
                         .status == 0);
-            const CommandResult found = shell(folder, "strata compare " + scene + " port.png" + options);
+            const CommandResult found = shell(folder, "strata compare " + sampled_scene + " port.png" + options);
             INFO(samples << ' ' << more << ": " << found.out << found.err);
             CHECK(found.status == 0);
             CHECK(found.out.find("\n  by the rules of profile ideal with " + more +
@@ -108,7 +109,7 @@ TEST_CASE("the alpha of a resolved picture is compared if its colours are right"
     const Folder folder;
     draw(folder, "--profile ideal --algorithm front_to_back --color-format rgba8");
     CHECK(judged(folder, {"--profile", "ideal"}).out.find("alpha is right") == std::string::npos);
-    REQUIRE(shell(folder, "strata render " + scene +
+    REQUIRE(shell(folder, "strata render " + sampled_scene +
                               " --size 32x24 --samples 4 --background none --profile ideal --color-format rgba8 "
                               "--no-audit -q -o port.png")
                 .status == 0);

@@ -64,8 +64,8 @@ TEST_CASE("a wrong argument gives exit status 2 and one error message with the e
          "strata: --fragment-memory: expected bytes such as 65536, 64M or 1G, found '64Q'"},
         {{"render", "teapot", "--execution", "tile"}, "strata: --execution: expected literal or replay, found 'tile'"},
         {{"render", "teapot", "--reference-path", "rq"},
-         "strata: --reference-path: expected window_z, perspective_rq, depth_replace, float32, float32_plane, exact or "
-         "w_buffer, found 'rq'"},
+         "strata: --reference-path: expected window_z, perspective_rq, depth_replace, float32, float32_plane, exact, "
+         "w_buffer, logarithmic or packed_rgba8, found 'rq'"},
         {{"render", "teapot", "--compare-epsilon", "2ups"},
          "strata: --compare-epsilon: expected a part of the depth range from 0 to 1 such as 1e-7, or units in the last "
          "place such as 2ulp, found '2ups'"},

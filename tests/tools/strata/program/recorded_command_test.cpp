@@ -30,7 +30,7 @@ std::map<std::string, std::string> contents_of(const Folder& folder) {
     return contents;
 }
 
-const std::string scene = "planes:count=2 --size 8x8";
+const std::string recorded_scene = "planes:count=2 --size 8x8";
 
 }  // namespace
 
@@ -80,7 +80,7 @@ TEST_CASE("a picture's command writes nothing and only its options that choose w
                                         "'--stats' victim.json",
                                         "--alpha"}) {
             INFO(verb << " " << words);
-            write_picture(folder / ("a." + ending), "strata " + verb + " " + scene + " " + words);
+            write_picture(folder / ("a." + ending), "strata " + verb + " " + recorded_scene + " " + words);
             const auto before = contents_of(folder);
             const CommandResult ended = run_strata(folder, {verb, "--from", "a." + ending, "--no-audit"});
             CHECK(ended.status == 2);
