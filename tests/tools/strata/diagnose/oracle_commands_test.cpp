@@ -105,7 +105,7 @@ TEST_CASE("explain describes a pixel in text and as JSON and reports the valid p
     const nlohmann::json document = nlohmann::json::parse(ended.out);
     CHECK(document["histories"][0]["pixel"] == nlohmann::json({20, 15}));
     CHECK(document["histories"][0]["fragments"].size() > 1);
-    CHECK(document["histories"][0]["fragments"][0]["depth"].size() == 7);
+    CHECK(document["histories"][0]["fragments"][0]["depth"].size() == 9);
     CHECK(content_of(folder / "column.svg").starts_with("<svg "));
     CHECK(run_strata(folder, {"explain", "teapot", "--size", "40x30", "--pixel", "40,0"}).err ==
           "strata: --pixel: expected a pixel from 0,0 to 39,29, found 40,0\n");
