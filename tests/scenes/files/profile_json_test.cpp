@@ -97,16 +97,16 @@ TEST_CASE("a value of the wrong type or out of range is rejected with file and J
               .starts_with("my.json: /max_samples: expected a whole number"));
     CHECK(error_of(changed(R"("has_d16": 1)")) == "my.json: /has_d16: expected true or false, found 1");
     CHECK(error_of(changed(R"("has_d16": null)")) == "my.json: /has_d16: expected true or false, found null");
-    CHECK(error_of(changed(R"("raster": {"subpixel_bits": 6})")) ==
-          "my.json: /raster/subpixel_bits: expected a number from 4 to 12 in steps of 4, found 6");
+    CHECK(error_of(changed(R"("raster": {"subpixel_bits": 13})")) ==
+          "my.json: /raster/subpixel_bits: expected a whole number from 0 to 12, found 13");
     CHECK(error_of(changed(R"("raster": [])")) == "my.json: /raster: expected an object, found an array of 0");
     CHECK(error_of(changed(R"("denormals": 1)")) == "my.json: /denormals: expected one of flush, keep, found 1");
 }
 
 TEST_CASE("without a base every key of the first packs is required") {
     CHECK(error_of(R"({"name": "mine", "description": ""})") ==
-          "my.json: /raster/subpixel_bits: expected a number from 4 to 12 in steps of 4, found nothing, and no "
-          "\"base\" to take it from");
+          "my.json: /raster/subpixel_bits: expected a whole number from 0 to 12, found nothing, and no \"base\" "
+          "to take it from");
     CHECK(error_of(R"({"base": "ideal"})") == "my.json: /name: expected a string of at most 64 bytes, found nothing");
     CHECK(error_of(R"({"base": "ideal", "name": ""})") ==
           "my.json: /name: expected a name without control characters, found \"\"");
