@@ -245,21 +245,47 @@ bool Compositor::can_mix(const Stack& stack) const noexcept {
     return has_front(hypothesis_.order) || (mixing == Mixing{} && stack.mixing.through != Mixing::Through::summed);
 }
 
+std::size_t Compositor::near_of(const Stack& stack) const noexcept {
+    switch (hypothesis_.order) {
+        case Order::under: return stack.layers.size();
+        case Order::both_ends:
+        case Order::both_ends_apart: return stack.near;
+        case Order::both_ends_far: return stack.near_without_middle;
+        case Order::over:
+        case Order::over_apart: break;
+    }
+    return 0;
+}
+
 ReachableColor Compositor::reach(const Stack& stack) const noexcept {
+    return reach_of(stack,
+                    [](KnownEnds::Part, const Means&, std::size_t, const auto& make) -> Channels { return make(); });
+}
+
+ReachableColor Compositor::reach(const Stack& stack, KnownEnds& known) const {
+    constexpr std::size_t few = 4;  // layers that are composited as quickly as they are found
+    if (stack.layers.size() < few) return reach(stack);
+    return reach_of(stack,
+                    [&](KnownEnds::Part part, const Means& means, std::size_t near, const auto& make) -> Channels {
+                        return known.of(part, means.end, means.slack, near, make);
+                    });
+}
+
+ReachableColor Compositor::reach_of(const Stack& stack, const auto& ends) const {
     const Order order = hypothesis_.order;
     if (!can_mix(stack)) {
         constexpr Interval none{1, 0};
         return {{none, none, none, none}, {}};
     }
     const std::span<const Layer> near_to_far = stack.layers;
-    std::size_t near = 0;
-    if (order == Order::under) near = near_to_far.size();
-    if (order == Order::both_ends || order == Order::both_ends_apart) near = stack.near;
-    if (order == Order::both_ends_far) near = stack.near_without_middle;
-    const Channels behind = background_of(back_, stack);
+    const std::size_t near = near_of(stack);
+    const Channels behind = ends(KnownEnds::Part::background, back_, 0, [&] { return background_of(back_, stack); });
     const bool is_apart = order == Order::over_apart || order == Order::both_ends_apart;
-    Channels back = is_apart ? Channels{} : behind;
-    over(back_, near_to_far.subspan(near), stack, back);
+    Channels back = ends(is_apart ? KnownEnds::Part::back_apart : KnownEnds::Part::back, back_, near, [&] {
+        Channels onto = is_apart ? Channels{} : behind;
+        over(back_, near_to_far.subspan(near), stack, onto);
+        return onto;
+    });
     const auto published = [&](std::size_t c, Interval exact, double magnitude) {
         if (c < 3 && stack.finish == Finish::encoded) return result_.kept(encoded(clamped(exact)), magnitude);
         if (c < 3 && stack.finish == Finish::decoded) return result_.kept(decoded(clamped(exact)), magnitude);
@@ -291,7 +317,8 @@ ReachableColor Compositor::reach(const Stack& stack) const noexcept {
         }
         return reach;
     }
-    const Channels front = under(front_, near_to_far.first(near), stack);
+    const Channels front =
+        ends(KnownEnds::Part::front, front_, near, [&] { return under(front_, near_to_far.first(near), stack); });
     const Mixing& mixing = stack.mixing;
     Interval weight = read(front[3]);
     if (!is_apart || front_.end.storage == Storage::half) reach.sums = sums_of(stack, front, weight, back);

@@ -96,10 +96,37 @@ struct ReachableColor {
 // True if the pixel can have this colour; alpha is not compared.
 [[nodiscard]] bool holds(const ReachableColor& reach, const std::array<double, 4>& value) noexcept;
 
+// What the layers of one stack become at either end, by the rounding of the end: many hypotheses share their ends.
+class KnownEnds {
+  public:
+    using Channels = std::array<Interval, 4>;
+    enum class Part : std::uint8_t { background, back, back_apart, front };
+    [[nodiscard]] Channels of(Part part, const End& end, double slack, std::size_t near, const auto& make) {
+        const std::uint64_t key = std::uint64_t{near} << 32 | static_cast<std::uint64_t>(part) << 24 |
+                                  static_cast<std::uint64_t>(end.storage) << 16 |
+                                  static_cast<std::uint64_t>(end.source) << 8 |
+                                  static_cast<std::uint64_t>(end.rounding);
+        for (std::size_t i = 0; i < keys_.size(); ++i)
+            if (keys_[i] == key && all_[i].slack == slack) return all_[i].channels;
+        keys_.push_back(key);
+        return all_.emplace_back(Known{slack, make()}).channels;
+    }
+
+  private:
+    struct Known {
+        double slack = 0;
+        Channels channels{};
+    };
+    std::vector<std::uint64_t> keys_{};
+    std::vector<Known> all_{};
+};
+
 class Compositor {
   public:
     Compositor(const Hypothesis& hypothesis);
     [[nodiscard]] ReachableColor reach(const Stack& stack) const noexcept;
+    // The same; `known` belongs to this stack, and receives its ends if they have many layers.
+    [[nodiscard]] ReachableColor reach(const Stack& stack, KnownEnds& known) const;
     [[nodiscard]] const Hypothesis& hypothesis() const noexcept { return hypothesis_; }
 
   private:
@@ -114,8 +141,11 @@ class Compositor {
         Interval alpha{};
         bool is_premultiplied = false;
     };
-    using Channels = std::array<Interval, 4>;
+    using Channels = KnownEnds::Channels;
 
+    [[nodiscard]] std::size_t near_of(const Stack& stack) const noexcept;
+    // `ends` makes a part, or has it: of a part, its rounding, the number of near layers and a function that makes it.
+    [[nodiscard]] ReachableColor reach_of(const Stack& stack, const auto& ends) const;
     // False if the stack's mixing needs a front accumulator and the order has none. Such a stack has no possible value.
     [[nodiscard]] bool can_mix(const Stack& stack) const noexcept;
     [[nodiscard]] static Means means_of(const End& end, double slack);

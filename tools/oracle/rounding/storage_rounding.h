@@ -30,7 +30,7 @@ struct StorageRounding {
     enum class Half : std::uint8_t { none, nearest, truncated };
     Half half = Half::none;  // for binary16: the value, after the errors above, is rounded to nearest or truncated.
 
-    [[nodiscard]] Interval kept(Interval exact, double magnitude) const noexcept {
+    [[nodiscard, gnu::always_inline]] inline Interval kept(Interval exact, double magnitude) const noexcept {
         if (!has_codes && half != Half::none) {
             const auto rounded = [&](double v) {
                 return half == Half::truncated ? truncated_half(v) : nearest_half(v);

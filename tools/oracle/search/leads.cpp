@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "tools/oracle/search/search.h"
-#include "tools/oracle/search/split_sample.h"
 
 namespace strata::oracle::verdict {
 
@@ -27,7 +26,7 @@ std::vector<bool> reached(std::span<const SplitPixel* const> pixels, const Rules
 // pixels that contradict it.
 std::vector<Lead> leads_of(const std::vector<Rules>& all, const SplitSample& parts, const Hypothesis& hypothesis,
                            const Setting& setting) {
-    constexpr std::size_t most_leads = 6, most_looked_at = 1024, least_share = 20;  // a twentieth
+    constexpr std::size_t most_leads = 6, most_looked_at = 128, least_share = 20;  // a twentieth
     const Compositor compositor{hypothesis};
     const auto wrong = thinned(parts.wrong, most_looked_at), right = thinned(parts.right, most_looked_at);
     std::vector<Lead> leads(all.size());
@@ -64,12 +63,11 @@ std::vector<Lead> leads_of(const std::vector<Rules>& all, const SplitSample& par
 
 }  // namespace
 
-std::vector<Lead> leads(const SceneFragments& scene, const CheckedAccount& closest, const Sample& sample) {
-    const Hypothesis& hypothesis = closest.account.hypothesis;
-    std::vector<Rule> rules = rules_for(facts_of(scene, sample));
+std::vector<Lead> MistakeSearch::leads() const {
+    std::vector<Rule> rules = rules_;
     // With few bits and a rounding that is not known, each of these explains nearly any picture.
     std::erase_if(rules, [](const Rule& rule) { return rule.kind == RuleKind::few_bits; });
-    return leads_of(singles(rules), split_by_account(sample, hypothesis), hypothesis, scene.setting());
+    return leads_of(singles(rules), parts_, closest_.account.hypothesis, scene_.setting());
 }
 
 }  // namespace strata::oracle::verdict

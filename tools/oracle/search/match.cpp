@@ -7,6 +7,7 @@
 #include <bit>
 #include <limits>
 #include <map>
+#include <numeric>
 
 #include "tools/oracle/fragments/coverages.h"
 #include "tools/oracle/rounding/pricing.h"
@@ -134,6 +135,29 @@ const Stack* reaching(const Compositor& compositor, const StackedPixel& pixel, S
     return nullptr;
 }
 
+void AskedPixel::ask_all() {
+    asked_.resize(pixel_->stacks.size());
+    std::iota(asked_.begin(), asked_.end(), 0u);
+}
+
+ReachedStack AskedPixel::reached(const Compositor& compositor, Steps& steps) {
+    for (const std::uint32_t i : asked_) {
+        const Stack& stack = pixel_->stacks[i];
+        ReachableColor reach = compositor.reach(stack, known_[i]);
+        steps.composite(stack.layers.size() + reach.sums.weights());
+        if (holds(reach, pixel_->value)) return {&stack, std::move(reach)};
+    }
+    return {};
+}
+
+ReachedStack AskedPixel::narrowed(const Compositor& widest, Steps& steps) {
+    ask_all();
+    ReachedStack first = reached(widest, steps);
+    const auto at = first.stack != nullptr ? first.stack - pixel_->stacks.data() : std::ssize(asked_);
+    asked_.erase(asked_.begin(), asked_.begin() + at);
+    return first;
+}
+
 bool is_as_given(const StackedPixel& pixel, const Stack& found) noexcept {
     return static_cast<std::size_t>(&found - pixel.stacks.data()) < pixel.given;
 }
@@ -152,6 +176,11 @@ struct SampleCost {
 // A pixel of a sample, for all pixels with the same structures and the same value.
 struct WeightedPixel {
     StackedPixel pixel{};
+    double weight = 1;
+};
+
+struct PricedPixel {
+    AskedPixel asked;
     double weight = 1;
 };
 
@@ -193,7 +222,7 @@ std::vector<WeightedPixel> weighted(std::span<const Rule> rules, const Sample& s
         StackedPixel made = stacked(rules, pixel, maker);
         const auto [found, is_new] = number_of.emplace(key_of(made), pixels.size());
         if (is_new)
-            pixels.push_back({std::move(made), 1});
+            pixels.push_back({.pixel = std::move(made)});
         else
             pixels[found->second].weight += 1;
     }
@@ -201,21 +230,22 @@ std::vector<WeightedPixel> weighted(std::span<const Rule> rules, const Sample& s
 }
 
 // Stops when the cost exceeds `most_bits`, or at the first wrong pixel if none is allowed.
-SampleCost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel*>& pixels, WrongPixels allowed,
-                   double most_bits, Steps& steps) {
+SampleCost cost_of(const Hypothesis& hypothesis, std::vector<PricedPixel*>& pixels, WrongPixels allowed,
+                   double most_bits, Steps& steps, bool narrows = false) {
     const Compositor compositor{hypothesis};
     const Pricing pricing{hypothesis.result.storage};
     SampleCost cost{.bits = bits_of(hypothesis)};
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        const auto& [pixel, weight] = *pixels[i];
-        const Stack* const stack = reaching(compositor, pixel, steps);
-        if (stack == nullptr) {
+        AskedPixel& asked = pixels[i]->asked;
+        const double weight = pixels[i]->weight;
+        const ReachedStack found = narrows ? asked.narrowed(compositor, steps) : asked.reached(compositor, steps);
+        if (found.stack == nullptr) {
             cost.wrong += weight;
             std::swap(pixels[i], pixels[i / 2]);  // it is likely to reject the next hypothesis, too
         } else {
-            const bool as_given = is_as_given(pixel, *stack);
+            const bool as_given = is_as_given(asked.pixel(), *found.stack);
             cost.is_as_given = cost.is_as_given && as_given;
-            cost.bits += weight * (pricing.of(compositor.reach(*stack)) + (as_given ? 0 : Pricing::of_edge));
+            cost.bits += weight * (pricing.of(found.reach) + (as_given ? 0 : Pricing::of_edge));
         }
         if (cost.wrong > 0 && allowed == WrongPixels::none) break;
         if (cost.total(pricing) > most_bits) break;
@@ -225,9 +255,9 @@ SampleCost cost_of(const Hypothesis& hypothesis, std::vector<const WeightedPixel
 
 // A lower bound for the cost of all members of a family: the cost of the pixels that their widest hypothesis does not
 // reach.
-double least_of(const HypothesisFamily& family, std::vector<const WeightedPixel*>& pixels, WrongPixels allowed,
-                double most, Steps& steps) {
-    SampleCost cost = cost_of(family.widest, pixels, allowed, std::numeric_limits<double>::max(), steps);
+double least_of(const HypothesisFamily& family, std::vector<PricedPixel*>& pixels, WrongPixels allowed, double most,
+                Steps& steps) {
+    SampleCost cost = cost_of(family.widest, pixels, allowed, std::numeric_limits<double>::max(), steps, true);
     if (allowed == WrongPixels::none && cost.wrong > 0) return most;
     cost.bits = 0;
     return cost.total(Pricing{family.widest.result.storage});
@@ -240,8 +270,10 @@ std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rul
     Steps steps{*sample.setting().work};
     if (allowed == WrongPixels::none && steps.is_spent()) return std::nullopt;
     const std::vector<WeightedPixel> made = weighted(rules, sample);
-    std::vector<const WeightedPixel*> pixels;
-    for (const WeightedPixel& pixel : made) pixels.push_back(&pixel);
+    std::vector<PricedPixel> priced;
+    for (const WeightedPixel& one : made) priced.push_back({AskedPixel{one.pixel}, one.weight});
+    std::vector<PricedPixel*> pixels;
+    for (PricedPixel& pixel : priced) pixels.push_back(&pixel);
     constexpr double any_bits = std::numeric_limits<double>::max();
     if (likely)
         if (const SampleCost cost = cost_of(*likely, pixels, WrongPixels::none, any_bits, steps);

@@ -38,6 +38,26 @@ struct StackedPixel {
 [[nodiscard]] StackedPixel stacked(std::span<const Rule> rules, const SampledPixel& pixel, StackMaker& maker);
 // The first structure of the pixel that reaches its value; null if there is none.
 [[nodiscard]] const Stack* reaching(const Compositor& compositor, const StackedPixel& pixel, Steps& steps);
+// The same for a pixel that many hypotheses are asked about.
+struct ReachedStack {
+    const Stack* stack = nullptr;  // null: none
+    ReachableColor reach{};
+};
+class AskedPixel {
+  public:
+    explicit AskedPixel(const StackedPixel& pixel) : pixel_{&pixel}, known_(pixel.stacks.size()) { ask_all(); }
+    [[nodiscard]] const StackedPixel& pixel() const noexcept { return *pixel_; }
+    [[nodiscard]] ReachedStack reached(const Compositor& compositor, Steps& steps);
+    // Forgets structures before the first that this hypothesis reaches, as it includes all that are asked next.
+    [[nodiscard]] ReachedStack narrowed(const Compositor& widest, Steps& steps);
+
+  private:
+    void ask_all();
+
+    const StackedPixel* pixel_;
+    std::vector<KnownEnds> known_;
+    std::vector<std::uint32_t> asked_{};
+};
 [[nodiscard]] bool is_as_given(const StackedPixel& pixel, const Stack& found) noexcept;
 
 // The hypothesis that describes the sample in the fewest bits (pricing.h); with Wrong::none it must hold for every

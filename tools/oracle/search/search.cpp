@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "tools/oracle/rounding/pricing.h"
-#include "tools/oracle/search/split_sample.h"
 
 namespace strata::oracle::verdict {
 
@@ -124,6 +123,8 @@ Families possible(const Families& all, const SplitSample& parts, const Hypothesi
         structures += own;
         return false;
     });
+    std::vector<AskedPixel> asked;
+    for (const SplitPixel* pixel : pixels) asked.emplace_back(pixel->right);
     const std::size_t most_missed = pixels.size() / 50;
     double most_bits = std::numeric_limits<double>::max();
     Steps steps{*setting.work};
@@ -133,11 +134,12 @@ Families possible(const Families& all, const SplitSample& parts, const Hypothesi
         double bits = 0;
         std::size_t missed = 0;
         for (std::size_t i = 0; i < pixels.size(); ++i) {
-            if (const Stack* const stack = reaching(compositor, pixels[i]->right, steps)) {
-                bits += pricing.of(compositor.reach(*stack));
+            const ReachedStack found = asked[i].reached(compositor, steps);
+            if (found.stack != nullptr) {
+                bits += pricing.of(found.reach);
             } else {
                 if (++missed > most_missed) return std::nullopt;
-                std::swap(pixels[i], pixels[i / 2]);  // it is likely to reject the next hypothesis, too
+                std::swap(asked[i], asked[i / 2]);  // it is likely to reject the next hypothesis, too
             }
             if (bits > most_bits) return std::nullopt;
         }
@@ -147,9 +149,9 @@ Families possible(const Families& all, const SplitSample& parts, const Hypothesi
         const Compositor compositor{h};
         std::size_t missed = 0;
         for (std::size_t i = 0; i < pixels.size() && missed <= most_missed; ++i) {
-            if (reaching(compositor, pixels[i]->right, steps) != nullptr) continue;
+            if (asked[i].narrowed(compositor, steps).stack != nullptr) continue;
             ++missed;
-            std::swap(pixels[i], pixels[i / 2]);
+            std::swap(asked[i], asked[i / 2]);
         }
         return missed;
     };
@@ -295,32 +297,51 @@ void drop_roomy(std::vector<CheckedAccount>& found, double most_bits) {
 
 }  // namespace
 
-std::vector<CheckedAccount> search(const SceneFragments& scene, const Colors& candidate, const Families& definite,
-                                   const CheckedAccount& closest, const Sample& sample, int most_rules,
-                                   const RuleRegion& region) {
+MistakeSearch::MistakeSearch(const SceneFragments& scene, const Colors& candidate, const CheckedAccount& closest,
+                             const Sample& sample)
+    : scene_{scene},
+      candidate_{candidate},
+      closest_{closest},
+      sample_{sample},
+      parts_{split_by_account(sample, closest.account.hypothesis)},
+      rules_{rules_for(facts_of(scene, sample))} {}
+
+const Families& MistakeSearch::likely(const Families& definite) {
+    if (likely_of_ != &definite) {
+        likely_ = possible(definite, parts_, closest_.account.hypothesis, scene_.setting());
+        likely_of_ = &definite;
+    }
+    return likely_;
+}
+
+std::vector<CheckedAccount> MistakeSearch::found(const Families& definite, int most_rules, const RuleRegion& region) {
     constexpr std::size_t least_of_pairs = 8;  // wrong pixels; with fewer, two mistakes cannot be distinguished
     // Limits of the accounts that are tried on the whole picture: counts instead of times, so that the result is the
     // same on every machine.
     constexpr std::size_t most_tried = 24, most_tried_again = 12, most_pairs_tried = 8;
-    std::vector<Rule> rules = rules_for(facts_of(scene, sample));
+    const Setting& setting = scene_.setting();
+    const Hypothesis& hypothesis = closest_.account.hypothesis;
+    std::vector<Rule> rules = rules_;
     for (Rule& rule : rules) rule.region = region;
-    const SplitSample parts = split_by_account(sample, closest.account.hypothesis);
-    if (scene.setting().work->is_spent() || (most_rules > 1 && parts.wrong.size() < least_of_pairs)) return {};
-    const std::vector<Rules> all =
-        most_rules > 1 ? pairs_of(rules, parts, closest.account.hypothesis, scene.setting()) : singles(rules);
+    if (setting.work->is_spent() || (most_rules > 1 && parts_.wrong.size() < least_of_pairs)) return {};
+    const std::vector<Rules> all = most_rules > 1 ? pairs_of(rules, parts_, hypothesis, setting) : singles(rules);
+    const auto left_under = [&](const std::vector<Hypothesis>& wide) {
+        return by_explained(survivors(all, parts_, wide, setting), parts_, hypothesis, setting);
+    };
     // First uses the hypotheses that hold for the right pixels. If the mistake affects all pixels, these are not right
     // under the true hypothesis, so all are tried afterwards.
-    std::vector<CheckedAccount> found;
-    const Families likely = possible(definite, parts, closest.account.hypothesis, scene.setting());
-    const auto find = [&](const Families& some, std::size_t most) {
-        const std::vector<Rules> left = by_explained(survivors(all, parts, widest(some), scene.setting()), parts,
-                                                     closest.account.hypothesis, scene.setting());
-        found = whole(left, scene, candidate, some, closest.account.hypothesis, parts, sample, most);
-    };
-    find(likely, most_rules > 1 ? most_pairs_tried : most_tried);
-    if (found.empty() && most_rules == 1 && !scene.setting().work->is_spent()) find(definite, most_tried_again);
-    drop_roomy(found, bits_of(closest));
-    return found;
+    const Families& first = likely(definite);
+    const std::vector<Hypothesis> wide = widest(first);
+    const std::vector<Rules> left = left_under(wide);
+    std::vector<CheckedAccount> accounts = whole(left, scene_, candidate_, first, hypothesis, parts_, sample_,
+                                                 most_rules > 1 ? most_pairs_tried : most_tried);
+    if (accounts.empty() && most_rules == 1 && !setting.work->is_spent()) {
+        const std::vector<Hypothesis> wider = widest(definite);
+        accounts = whole(wider == wide ? left : left_under(wider), scene_, candidate_, definite, hypothesis, parts_,
+                         sample_, most_tried_again);
+    }
+    drop_roomy(accounts, bits_of(closest_));
+    return accounts;
 }
 
 std::optional<CheckedAccount> explained_by(const std::vector<Rule>& rules, const SceneFragments& scene,

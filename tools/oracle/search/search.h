@@ -10,17 +10,38 @@
 
 #include "tools/oracle/rules/rules.h"
 #include "tools/oracle/search/match.h"
+#include "tools/oracle/search/split_sample.h"
 
 namespace strata::oracle::verdict {
 
-// Accounts with `most_rules` rules, one or two, each of which holds for the whole picture; the best is first.
-// `definite`: the hypotheses under which they must hold; `closest`: the account of the right structure with the least
-// cost; `sample`: pixels, including some wrong ones; `region`: the pixels at which the port makes the mistake.
-[[nodiscard]] std::vector<CheckedAccount> search(const SceneFragments& scene, const Colors& candidate,
-                                                 const Families& definite, const CheckedAccount& closest,
-                                                 const Sample& sample, int most_rules, const RuleRegion& region = {});
+// The search for the mistakes of one picture. `closest`: the account of the right structure with the least cost;
+// `sample`: pixels, including some wrong ones. All that is given must outlive the search.
+class MistakeSearch {
+  public:
+    MistakeSearch(const SceneFragments& scene, const Colors& candidate, const CheckedAccount& closest,
+                  const Sample& sample);
+    // Accounts with `most_rules` rules, one or two, each of which holds for the whole picture; the best is first.
+    // `definite`: the hypotheses under which they must hold; `region`: the pixels at which the port makes the mistake.
+    [[nodiscard]] std::vector<CheckedAccount> found(const Families& definite, int most_rules,
+                                                    const RuleRegion& region = {});
+    // The rules that explain the most wrong pixels of the sample, the best first.
+    [[nodiscard]] std::vector<Lead> leads() const;
 
-// The same with one rule and without the closest account, under narrow hypotheses: accounts must explain every pixel of
+  private:
+    // Of these hypotheses, those that hold for the right pixels.
+    [[nodiscard]] const Families& likely(const Families& definite);
+
+    const SceneFragments& scene_;
+    const Colors& candidate_;
+    const CheckedAccount& closest_;
+    const Sample& sample_;
+    SplitSample parts_;
+    std::vector<Rule> rules_;
+    Families likely_{};
+    const Families* likely_of_ = nullptr;
+};
+
+// Accounts of one rule without the closest account, under narrow hypotheses: accounts must explain every pixel of
 // the sample, including those that a wider hypothesis would call right.
 struct AgainstRight {
     double bits = 0;                                      // of the account of the right structure
@@ -34,8 +55,5 @@ struct AgainstRight {
 [[nodiscard]] std::optional<CheckedAccount> explained_by(const std::vector<Rule>& rules, const SceneFragments& scene,
                                                          const Colors& candidate, const Families& definite,
                                                          const Sample& sample);
-
-// The rules that explain the most wrong pixels of a sample, the best first.
-[[nodiscard]] std::vector<Lead> leads(const SceneFragments& scene, const CheckedAccount& closest, const Sample& sample);
 
 }  // namespace strata::oracle::verdict

@@ -213,8 +213,9 @@ Verdict found_at_length(SceneFragments& scene, const Colors& candidate, const Se
     sample = sample.with_few_structures(most_structures);
     work.begin_stage(0.6, 0.8);
     work.allow(limits.mistakes + of_fragments);
+    MistakeSearch search{scene, candidate, verdict.right, sample};
     const auto is_found = [&](const Families& some, int most_rules, const RuleRegion& region) {
-        verdict.explanations = search(scene, candidate, some, verdict.right, sample, most_rules, region);
+        verdict.explanations = search.found(some, most_rules, region);
         verdict.is_stopped = work.is_cut_short();
         return !verdict.explanations.empty();
     };
@@ -225,7 +226,7 @@ Verdict found_at_length(SceneFragments& scene, const Colors& candidate, const Se
     if (doubtful) return *std::move(doubtful);
     work.begin_stage(0.8, 0.9);
     work.allow(limits.leads);
-    verdict.leads = leads(scene, verdict.right, sample);
+    verdict.leads = search.leads();
     // The search may have stopped before it tried a mistake that explains all pixels that were looked at.
     for (const Lead& lead : verdict.leads) {
         if (lead.explained < lead.of || lead.contradicted > 0) continue;

@@ -190,3 +190,19 @@ TEST_CASE(
     }
     CHECK(first == "");
 }
+
+TEST_CASE("hypotheses that share the ends of a stack reach what each alone reaches") {
+    std::mt19937_64 random{57};
+    const std::vector<double> slacks{0, 0x1p-20, 0x1p-9};
+    const Families all = families(Storage::unorm8, slacks, Looseness::loose);
+    for (int i = 0; i < 4; ++i) {
+        const Stack stack = random_stack(random, 12);
+        KnownEnds known;
+        std::size_t others = 0;
+        for (int again = 0; again < 2; ++again)
+            for (const HypothesisFamily& family : all)
+                for (const Hypothesis& h : family.members)
+                    others += Compositor{h}.reach(stack, known) == Compositor{h}.reach(stack) ? 0 : 1;
+        CHECK(others == 0);
+    }
+}
