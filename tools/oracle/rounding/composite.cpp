@@ -14,13 +14,13 @@ namespace {
 constexpr double last_places = 0x1p-20;  // least error of interpolation from moved positions
 constexpr double srgb_error = 0x1p-21;   // of sRGB encoding in binary32
 
-Interval clamped(Interval x) noexcept {
+[[gnu::always_inline]] inline Interval clamped(Interval x) noexcept {
     return {std::min(std::max(x.low, 0.0), 1.0), std::min(std::max(x.high, 0.0), 1.0)};
 }
 
 // The value of the code to which `exact` is rounded, ties up, as for SourceRounding::stored. The interval is a single
 // code if both of its ends round to that code.
-Interval stored_up(const StorageRounding& keeper, Interval exact) noexcept {
+[[gnu::always_inline]] inline Interval stored_up(const StorageRounding& keeper, Interval exact) noexcept {
     const auto code = [&](double v) {
         return std::min(std::max(StorageRounding::floor_of(v * keeper.scale + 0.5), 0.0), keeper.scale) *
                keeper.inverse;
@@ -38,7 +38,8 @@ Interval decoded(Interval encoded) noexcept {
 }
 
 // sRGB targets round the encoded colour to a code; float targets store linear values.
-Interval kept_by(const StorageRounding& keeper, Interval exact, double magnitude, bool is_linear) noexcept {
+[[gnu::always_inline]] inline Interval kept_by(const StorageRounding& keeper, Interval exact, double magnitude,
+                                               bool is_linear) noexcept {
     if (!is_linear || !keeper.has_codes) return keeper.kept(exact, magnitude);
     return decoded(keeper.kept(encoded(exact), magnitude));
 }

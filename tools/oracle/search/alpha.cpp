@@ -74,10 +74,17 @@ class AlphaChecker {
         scene_.for_each_tile([&](const TileLists& tile) {
             StackMaker maker{scene_.setting()};
             std::vector<std::uint32_t> here;
+            std::optional<double> blank;  // the alpha of a right pixel where nothing is drawn: most have the same
             for (std::size_t p = 0; p < tile.rect.area() && here.size() < most; ++p) {
                 const PixelList list = scene_.at(tile, p);
+                const bool is_blank =
+                    !list.has_opaque && list.visible.empty() && list.edge == nullptr && list.behind_spread == 0;
+                const double alpha = candidate_.alpha_at(list.x, list.y);
+                if (is_blank && blank == alpha) continue;
                 if (!can_be(list, alternative, maker))
                     here.push_back(static_cast<std::uint32_t>(list.y * scene_.width() + list.x));
+                else if (is_blank)
+                    blank = alpha;
             }
             const std::scoped_lock lock{mutex};
             all.insert(all.end(), here.begin(), here.end());

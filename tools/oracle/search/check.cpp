@@ -67,11 +67,23 @@ constexpr TieMask of_rule(TieHandling rule) {
 constexpr TieMask keeping_ties = of_rule(TieHandling::first) | of_rule(TieHandling::last) |
                                  of_rule(TieHandling::first_then_last) | TieMask{1} << ties_count;
 
+// A pixel without fragments whose background has the candidate's value, and its bits.
+struct BlankPixel {
+    Rgba behind{};
+    std::array<double, 4> value{};
+    double bits = 0;
+};
+
+bool is_blank(const PixelList& list) noexcept {
+    return list.visible.empty() && list.hidden.empty() && list.edge == nullptr && list.behind_spread == 0;
+}
+
 // The result for one tile.
 struct PartChecked {
     CheckedAccount checked{};
     TieMask everywhere = all_ties;
     Sample examples;
+    std::optional<BlankPixel> blank{};  // the last that was found right: most have the same value
 };
 
 class Checker {
@@ -99,6 +111,11 @@ class Checker {
         CheckedAccount& found = part.checked;
         ++found.pixels;
         found.covered += list.visible.empty() ? 0 : 1;
+        const bool may_be_known = account_.rules.empty() && is_blank(list);
+        if (may_be_known && part.blank && part.blank->value == value && part.blank->behind == list.behind) {
+            found.bits += part.blank->bits;
+            return;
+        }
         const MatchingTies way = matching_ties(compositor_, account_.rules, list, value, maker);
         found.edges += list.edge != nullptr || (way.mask != 0 && way.at_edge) ? 1 : 0;
         const TieMask mask = way.mask;
@@ -116,7 +133,10 @@ class Checker {
         const Stack& stack = maker.with(account_.rules, way.list, way.ties, way.is_moved);
         const ReachableColor reach = compositor_.reach(stack);
         maker.steps().composite(stack.layers.size());
-        found.bits += Pricing{account_.hypothesis.result.storage}.of(reach) + (way.at_edge ? Pricing::of_edge : 0);
+        const double bits =
+            Pricing{account_.hypothesis.result.storage}.of(reach) + (way.at_edge ? Pricing::of_edge : 0);
+        found.bits += bits;
+        if (may_be_known && !way.at_edge) part.blank = {list.behind, value, bits};
         if (!way.at_edge) measure(stack, reach, value, account_.hypothesis.result.storage, found);
         if (account_.rules.empty()) return;
         Stack own = stack;

@@ -19,6 +19,19 @@ namespace {
 
 using pipeline::Format;
 
+pipeline::Image within(const pipeline::Image& image, const rasterizer::Rect& rect) {
+    pipeline::Image some{image.format, rect.x1 - rect.x0, rect.y1 - rect.y0};
+    const auto channels = static_cast<std::size_t>(image.channels());
+    const auto length = static_cast<std::size_t>(some.width) * channels;
+    for (int y = 0; y < some.height; ++y) {
+        const std::size_t from = static_cast<std::size_t>(y + rect.y0) * static_cast<std::size_t>(image.width) +
+                                 static_cast<std::size_t>(rect.x0);
+        std::copy_n(image.codes.begin() + static_cast<std::ptrdiff_t>(from * channels), length,
+                    some.codes.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * length));
+    }
+    return some;
+}
+
 // A finished picture as the candidate's file has it; empty if its codes are of another type.
 std::optional<TargetImage> as_stored(const pipeline::Image& image, const PictureQuestion& question) {
     TargetImage own = as_target(image, "color");
@@ -29,17 +42,19 @@ std::optional<TargetImage> as_stored(const pipeline::Image& image, const Picture
     return own;
 }
 
+// `own`: the picture within `rect`.
 bool is_equal(const TargetImage& own, const PictureQuestion& question, const rasterizer::Rect& rect) {
     const TargetImage& candidate = question.colors;
     const int channels = candidate.is_grey    ? 3
                          : question.has_alpha ? candidate.channels
                                               : std::min(candidate.channels, 3);
+    std::size_t part = 0;  // the pixel's number in `own`
     for (int y = rect.y0; y < rect.y1; ++y)
-        for (int x = rect.x0; x < rect.x1; ++x) {
+        for (int x = rect.x0; x < rect.x1; ++x, ++part) {
             const auto pixel =
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(candidate.width) + static_cast<std::size_t>(x);
             for (int c = 0; c < std::min(channels, own.channels); ++c)
-                if (own.at(pixel, c).word != candidate.at(pixel, candidate.is_grey ? 0 : c).word) return false;
+                if (own.at(part, c).word != candidate.at(pixel, candidate.is_grey ? 0 : c).word) return false;
         }
     return true;
 }
@@ -101,7 +116,7 @@ std::string equal_algorithm(const peeling::FrameRequest& input, const PictureQue
                 options.color_format = format;
                 peeling::Renderer renderer{input.with(options)};
                 const peeling::RenderResult drawn = renderer.render(*algorithm);
-                const auto own = drawn.refusal ? std::nullopt : as_stored(drawn.frame.color, question);
+                const auto own = drawn.refusal ? std::nullopt : as_stored(within(drawn.frame.color, rect), question);
                 return own && is_equal(*own, question, rect);
             };
             try {

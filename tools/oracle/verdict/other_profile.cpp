@@ -2,6 +2,7 @@
 // origin (other_profile.h).
 #include "tools/oracle/verdict/other_profile.h"
 
+#include <algorithm>
 #include <mutex>
 
 #include "pipeline/device/check.h"
@@ -33,24 +34,30 @@ std::optional<CheckedAccount> narrow_account(const SceneFragments& scene, const 
 // So few wrong pixels may all be at edges, where the other profile explains some and another rasterizer the others.
 constexpr std::size_t few_wrong = 16;
 
-// True if a definite hypothesis explains the rectangle. A hypothesis that fails there fails for the whole picture, so
-// the rest need not be rendered.
-bool may_be_right(const peeling::FrameRequest& input, std::uint64_t bytes, const Colors& candidate,
-                  const rasterizer::Rect& rect) {
-    const peeling::RenderOptions options = scissored(input.options, rect);
-    const SceneFragments part{input.with(options), bytes};
-    Sample sample{part.setting()};
+// True if a definite hypothesis explains the pixels of the scene that are chosen.
+bool may_be_right(const SceneFragments& scene, const Colors& candidate, const auto& is_chosen) {
+    Sample sample{scene.setting()};
     std::mutex mutex;
-    part.for_each_tile([&](const TileLists& tile) {
+    scene.for_each_tile([&](const TileLists& tile) {
         for (std::size_t p = 0; p < tile.rect.area(); ++p) {
-            const PixelList list = part.at(tile, p);
-            if (list.x < rect.x0 || list.x >= rect.x1 || list.y < rect.y0 || list.y >= rect.y1) continue;
+            const PixelList list = scene.at(tile, p);
+            if (!is_chosen(list.x, list.y)) continue;
             const std::scoped_lock lock{mutex};
             sample.add(list, candidate.at(list.x, list.y));
         }
     });
     sample.sort();
     return best_of(definite(candidate), {}, sample, WrongPixels::none).has_value();
+}
+
+// The same for a rectangle. A hypothesis that fails there fails for the whole picture, so the rest need not be
+// rendered.
+bool may_be_right(const peeling::FrameRequest& input, std::uint64_t bytes, const Colors& candidate,
+                  const rasterizer::Rect& rect) {
+    const peeling::RenderOptions options = scissored(input.options, rect);
+    const SceneFragments part{input.with(options), bytes};
+    return may_be_right(part, candidate,
+                        [&](int x, int y) { return x >= rect.x0 && x < rect.x1 && y >= rect.y0 && y < rect.y1; });
 }
 
 }  // namespace
@@ -88,7 +95,11 @@ std::optional<OtherProfile> right_by_rules(const peeling::FrameRequest& input, O
     auto right = right_narrowly(*other.fragments, candidate);
     if (!right && !wrong_pixels.empty() && wrong_pixels.size() <= few_wrong) {
         other.fragments->find_coverages();
-        right = right_narrowly(*other.fragments, candidate);
+        const auto is_wrong = [&](int x, int y) {
+            return std::ranges::find(wrong_pixels, static_cast<std::uint32_t>(y * candidate.width() + x)) !=
+                   wrong_pixels.end();
+        };
+        if (may_be_right(*other.fragments, candidate, is_wrong)) right = right_narrowly(*other.fragments, candidate);
     }
     if (!right) return std::nullopt;
     other.verdict = *std::move(right);
