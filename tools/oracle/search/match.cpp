@@ -303,6 +303,27 @@ std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rul
     return choose(1.1 * bits + 64, [](double) { return true; }).first;
 }
 
+Families holding(const Families& all, const Sample& sample) {
+    Steps steps{*sample.setting().work};
+    const std::vector<WeightedPixel> made = weighted({}, sample);
+    std::vector<AskedPixel> pixels;
+    for (const WeightedPixel& one : made) pixels.emplace_back(one.pixel);
+    Families left;
+    for (const HypothesisFamily& family : all) {
+        const Compositor widest{family.widest};
+        if (!std::ranges::all_of(pixels, [&](AskedPixel& p) { return p.narrowed(widest, steps).stack != nullptr; }))
+            continue;
+        HypothesisFamily own{.widest = family.widest};
+        std::ranges::copy_if(family.members, std::back_inserter(own.members), [&](const Hypothesis& h) {
+            const Compositor compositor{h};
+            return std::ranges::all_of(pixels,
+                                       [&](AskedPixel& p) { return p.reached(compositor, steps).stack != nullptr; });
+        });
+        if (!own.members.empty()) left.push_back(std::move(own));
+    }
+    return left;
+}
+
 Families narrower(const Families& all, const Hypothesis& wide, const Sample& sample) {
     constexpr double much_less = 0.8;
     constexpr std::size_t few = 64;

@@ -66,6 +66,9 @@ enum class WrongPixels : std::uint8_t { some, none };
 [[nodiscard]] std::optional<Hypothesis> best_of(const Families& all, std::span<const Rule> rules, const Sample& sample,
                                                 WrongPixels allowed, const std::optional<Hypothesis>& likely = {});
 
+// Of these hypotheses, those that hold for every pixel of the sample under the right structure.
+[[nodiscard]] Families holding(const Families& all, const Sample& sample);
+
 // The hypotheses whose intervals for the right structure of the sample are clearly narrower than those of `wide`.
 [[nodiscard]] Families narrower(const Families& all, const Hypothesis& wide, const Sample& sample);
 

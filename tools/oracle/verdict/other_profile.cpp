@@ -20,9 +20,10 @@ Families definite(const Colors& candidate) {
 // The explanation of the candidate as a right picture, with fragments that are equal or differ by a few units in the
 // last place. It is returned only if it leaves at most two codes of 255 or few values possible, or if the candidate
 // contains at most one code.
-std::optional<CheckedAccount> narrow_account(const SceneFragments& scene, const Colors& candidate, Sample& sample) {
+std::optional<CheckedAccount> narrow_account(const Families& some, const SceneFragments& scene, const Colors& candidate,
+                                             Sample& sample) {
     constexpr double most_open = 2, most_bits = 4;  // codes; bits per pixel
-    auto found = account_for(definite(candidate), {}, scene, candidate, sample);
+    auto found = account_for(some, {}, scene, candidate, sample);
     if (!found || found->possible <= most_open || found->observed <= 1) return found;
     // For floats, the possible values may be far from the exact result and still be few.
     const bool are_few =
@@ -34,8 +35,7 @@ std::optional<CheckedAccount> narrow_account(const SceneFragments& scene, const 
 // So few wrong pixels may all be at edges, where the other profile explains some and another rasterizer the others.
 constexpr std::size_t few_wrong = 16;
 
-// True if a definite hypothesis explains the pixels of the scene that are chosen.
-bool may_be_right(const SceneFragments& scene, const Colors& candidate, const auto& is_chosen) {
+Sample sample_of(const SceneFragments& scene, const Colors& candidate, const auto& is_chosen) {
     Sample sample{scene.setting()};
     std::mutex mutex;
     scene.for_each_tile([&](const TileLists& tile) {
@@ -47,17 +47,31 @@ bool may_be_right(const SceneFragments& scene, const Colors& candidate, const au
         }
     });
     sample.sort();
-    return best_of(definite(candidate), {}, sample, WrongPixels::none).has_value();
+    return sample;
 }
 
-// The same for a rectangle. A hypothesis that fails there fails for the whole picture, so the rest need not be
-// rendered.
+// True if a definite hypothesis explains the rectangle. A hypothesis that fails there fails for the whole picture, so
+// the rest need not be rendered.
 bool may_be_right(const peeling::FrameRequest& input, std::uint64_t bytes, const Colors& candidate,
                   const rasterizer::Rect& rect) {
     const peeling::RenderOptions options = scissored(input.options, rect);
     const SceneFragments part{input.with(options), bytes};
-    return may_be_right(part, candidate,
-                        [&](int x, int y) { return x >= rect.x0 && x < rect.x1 && y >= rect.y0 && y < rect.y1; });
+    const Sample sample = sample_of(
+        part, candidate, [&](int x, int y) { return x >= rect.x0 && x < rect.x1 && y >= rect.y0 && y < rect.y1; });
+    return best_of(definite(candidate), {}, sample, WrongPixels::none).has_value();
+}
+
+// As right_narrowly, under these hypotheses.
+std::optional<Verdict> right_under(const Families& some, const SceneFragments& scene, const Colors& candidate) {
+    constexpr std::size_t most_sampled = 2048;
+    Sample sample = sampled(scene, candidate, most_sampled);
+    auto right = narrow_account(some, scene, candidate, sample);
+    if (!right) return std::nullopt;
+    Verdict verdict{
+        .is_right = true, .width = scene.width(), .facts = facts_of(scene, sample), .right = *std::move(right)};
+    verdict.alpha = check_alpha(scene, candidate, verdict.right.account.hypothesis);
+    verdict.is_right = verdict.alpha.state != AlphaState::wrong;
+    return verdict;
 }
 
 }  // namespace
@@ -67,15 +81,7 @@ std::string OtherProfile::description(const std::string& given, std::size_t wron
 }
 
 std::optional<Verdict> right_narrowly(const SceneFragments& scene, const Colors& candidate) {
-    constexpr std::size_t most_sampled = 2048;
-    Sample sample = sampled(scene, candidate, most_sampled);
-    auto right = narrow_account(scene, candidate, sample);
-    if (!right) return std::nullopt;
-    Verdict verdict{
-        .is_right = true, .width = scene.width(), .facts = facts_of(scene, sample), .right = *std::move(right)};
-    verdict.alpha = check_alpha(scene, candidate, verdict.right.account.hypothesis);
-    verdict.is_right = verdict.alpha.state != AlphaState::wrong;
-    return verdict;
+    return right_under(definite(candidate), scene, candidate);
 }
 
 std::optional<OtherProfile> right_by_rules(const peeling::FrameRequest& input, OtherRules rules,
@@ -99,7 +105,8 @@ std::optional<OtherProfile> right_by_rules(const peeling::FrameRequest& input, O
             return std::ranges::find(wrong_pixels, static_cast<std::uint32_t>(y * candidate.width() + x)) !=
                    wrong_pixels.end();
         };
-        if (may_be_right(*other.fragments, candidate, is_wrong)) right = right_narrowly(*other.fragments, candidate);
+        const Families held = holding(definite(candidate), sample_of(*other.fragments, candidate, is_wrong));
+        if (!held.empty()) right = right_under(held, *other.fragments, candidate);
     }
     if (!right) return std::nullopt;
     other.verdict = *std::move(right);
