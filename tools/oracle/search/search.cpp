@@ -13,12 +13,6 @@ namespace strata::oracle::verdict {
 
 namespace {
 
-SplitPixel::Reached how_reached(const Compositor& compositor, const StackedPixel& pixel, Steps& steps) {
-    const Stack* const found = reaching(compositor, pixel, steps);
-    if (found == nullptr) return SplitPixel::Reached::no;
-    return is_as_given(pixel, *found) ? SplitPixel::Reached::as_given : SplitPixel::Reached::at_edge;
-}
-
 // True if one of the hypotheses holds for all pixels under the rules; for codes, most pixels must not need another
 // rasterizer. Right pixels that the rules do not change remain right.
 bool survives(const Rules& rules, const SplitSample& parts, const std::vector<Compositor>& wide, bool is_noted,
@@ -43,7 +37,7 @@ bool survives(const Rules& rules, const SplitSample& parts, const std::vector<Co
             const bool stays = is_unchanged(made, pixel);
             if (pixels == &parts.right && stays) continue;
             if (stays && !parts.has_no_account && may_stay-- == 0) return false;
-            const bool is_known = is_noted && stays && made.stacks == pixel.right.stacks;
+            const bool is_known = is_noted && stays && !pixel.reached.empty() && made.stacks == pixel.right.stacks;
             std::erase_if(left, [&](Left& l) {
                 const Reached how =
                     is_known ? pixel.reached[l.number] : how_reached(wide[l.number], made, maker.steps());
@@ -326,6 +320,7 @@ std::vector<CheckedAccount> MistakeSearch::found(const Families& definite, int m
     if (setting.work->is_spent() || (most_rules > 1 && parts_.wrong.size() < least_of_pairs)) return {};
     const std::vector<Rules> all = most_rules > 1 ? pairs_of(rules, parts_, hypothesis, setting) : singles(rules);
     const auto left_under = [&](const std::vector<Hypothesis>& wide) {
+        if (parts_.noted != wide) note(parts_, wide, setting);
         return by_explained(survivors(all, parts_, wide, setting), parts_, hypothesis, setting);
     };
     // First uses the hypotheses that hold for the right pixels. If the mistake affects all pixels, these are not right
@@ -358,17 +353,9 @@ std::optional<CheckedAccount> explained_by(const std::vector<Rule>& rules, const
 
 namespace {
 
-// Notes how the right structure reaches the pixels under each hypothesis, and sorts the pixels with the most
-// information first: those with one structure, and of these the ones that the fewest hypotheses reach.
-void put_telling_first(SplitSample& parts, const std::vector<Hypothesis>& each, const Setting& setting) {
-    const std::vector<Compositor> compositors(each.begin(), each.end());
-    parts.noted = each;
-    setting.work->for_each(parts.wrong.size(), [&](std::size_t i) {
-        SplitPixel& pixel = parts.wrong[i];
-        StackMaker maker{setting};
-        pixel.right = stacked({}, *pixel.sampled, maker);
-        for (const Compositor& c : compositors) pixel.reached.push_back(how_reached(c, pixel.right, maker.steps()));
-    });
+// Sorts the pixels with the most information first: those with one structure, and of these the ones that the fewest
+// hypotheses reach.
+void put_telling_first(SplitSample& parts) {
     std::ranges::stable_sort(parts.wrong, {}, [](const SplitPixel& pixel) {
         const PixelList& list = pixel.sampled->list;
         const auto missed = std::ranges::count(pixel.reached, SplitPixel::Reached::no);
@@ -382,12 +369,15 @@ std::vector<CheckedAccount> search_all(const SceneFragments& scene, const Colors
                                        const Sample& sample, const AgainstRight& against) {
     constexpr std::size_t most_tried = 8;  // each is checked with every hypothesis
     SplitSample parts{.has_no_account = true};
-    for (const SampledPixel& pixel : sample.pixels()) parts.wrong.push_back({.sampled = &pixel});
+    StackMaker maker{scene.setting()};
+    for (const SampledPixel& pixel : sample.pixels())
+        parts.wrong.push_back({.sampled = &pixel, .right = stacked({}, pixel, maker)});
     std::vector<Hypothesis> each;
     for (const HypothesisFamily& family : narrow)
         std::ranges::copy_if(family.members, std::back_inserter(each),
                              [](const Hypothesis& h) { return h.slack == 0; });
-    put_telling_first(parts, each, scene.setting());
+    note(parts, each, scene.setting());
+    put_telling_first(parts);
     if (scene.setting().work->is_spent()) return {};
     const std::vector<Rules> all = singles(rules_for(facts_of(scene, sample)));
     const std::vector<Rules> possible = survivors(all, parts, widest(narrow), scene.setting());

@@ -23,6 +23,24 @@ bool is_unchanged(const StackedPixel& made, const SplitPixel& pixel) {
     });
 }
 
+SplitPixel::Reached how_reached(const Compositor& compositor, const StackedPixel& pixel, Steps& steps) {
+    const Stack* const found = reaching(compositor, pixel, steps);
+    if (found == nullptr) return SplitPixel::Reached::no;
+    return is_as_given(pixel, *found) ? SplitPixel::Reached::as_given : SplitPixel::Reached::at_edge;
+}
+
+void note(SplitSample& parts, const std::vector<Hypothesis>& each, const Setting& setting) {
+    const std::vector<Compositor> compositors(each.begin(), each.end());
+    parts.noted = each;
+    setting.work->for_each(parts.wrong.size(), [&](std::size_t i) {
+        SplitPixel& pixel = parts.wrong[i];
+        Steps steps{*setting.work};
+        pixel.reached.clear();
+        for (const Compositor& c : compositors) pixel.reached.push_back(how_reached(c, pixel.right, steps));
+    });
+    if (setting.work->is_spent()) parts.noted.clear();
+}
+
 std::vector<const SplitPixel*> thinned(const std::vector<SplitPixel>& pixels, std::size_t most) {
     std::vector<const SplitPixel*> some;
     const std::size_t step = pixels.size() / most + 1;

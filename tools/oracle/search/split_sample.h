@@ -32,6 +32,11 @@ struct SplitSample {
 // compared.
 [[nodiscard]] bool is_unchanged(const StackedPixel& made, const SplitPixel& pixel);
 
+[[nodiscard]] SplitPixel::Reached how_reached(const Compositor& compositor, const StackedPixel& pixel, Steps& steps);
+
+// Notes how the right structure reaches the wrong pixels under each hypothesis, unless the limit of work is reached.
+void note(SplitSample& parts, const std::vector<Hypothesis>& each, const Setting& setting);
+
 // At most `most` of the pixels, at even distances.
 [[nodiscard]] std::vector<const SplitPixel*> thinned(const std::vector<SplitPixel>& pixels, std::size_t most);
 

@@ -128,7 +128,7 @@ std::optional<RuleRegion> region_of(const std::vector<std::uint32_t>& wrong, int
     return box;
 }
 
-constexpr std::size_t most_sampled = 2048;
+constexpr std::size_t most_sampled = 2048, most_wrong_sampled = 512;
 
 // Prepares a scene for a verdict.
 void restart(SceneFragments& scene) {
@@ -204,7 +204,8 @@ Verdict found_at_length(SceneFragments& scene, const Colors& candidate, const Se
         if (doubtful->doubt.empty()) return *std::move(doubtful);
         break;
     }
-    for (const SampledPixel& pixel : examples.pixels())
+    const Sample wrong = examples.thinned(most_wrong_sampled);
+    for (const SampledPixel& pixel : wrong.pixels())
         if (!sample.has(pixel.list.x, pixel.list.y)) sample.add(pixel.list, pixel.value);
     if (auto found = right_but_rearranged(scene, candidate, all.definite, most_sampled)) {
         verdict.explanations = {*std::move(found)};
