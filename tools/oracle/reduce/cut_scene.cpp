@@ -21,7 +21,10 @@ namespace {
 // Copies vertices on first use.
 class MeshCut {
   public:
-    MeshCut(const Mesh& from, Mesh& to) : from_{from}, to_{to} { to_.name = from.name; }
+    MeshCut(const Mesh& from, Mesh& to) : from_{from}, to_{to} {
+        to_.name = from.name;
+        to_.primitive = from.primitive;
+    }
 
     void add(std::uint32_t triangle) {
         for (std::size_t corner = 0; corner < 3; ++corner)

@@ -239,6 +239,17 @@ TEST_CASE("a reduced scene keeps only the named triangles with what they refer t
     CHECK(cut(list, all).instances.size() == list.instances.size());
 }
 
+TEST_CASE("lines of a reduced scene stay lines") {
+    const pipeline::DrawList list = scenes::load_scene("wireframe", {}).list;
+    const auto all = triangles_of(list);
+    REQUIRE(all.back().instance == 2);
+    const TriangleName ends[] = {all.front(), all.back()};
+    const pipeline::DrawList reduced = cut(list, ends);
+    REQUIRE(reduced.meshes.size() == 2);
+    CHECK(reduced.meshes[0].primitive == pipeline::Primitive::triangles);
+    CHECK(reduced.meshes[1].primitive == pipeline::Primitive::lines);
+}
+
 TEST_CASE("three failures of a model of 200000 triangles are reduced to at most three triangles and four pixels",
           "[slow]") {
     const std::string model = std::string(STRATA_MODELS_DIR) + "/dragon.glb";
