@@ -99,8 +99,8 @@ TEST_CASE("smooth polygons multiply alpha by the samples that they cover") {
     state.smooth_polygons = true;
     int wrong = 0, outside = 0;
     for (int i = 0; i < 600; ++i) {
-        const RandomLine side = random_line(random, 4, 4);
-        const std::array<SubpixelPoint, 3> p{side.a, side.b, random_line(random, 4, 4).a};
+        const RandomLine base = random_line(random, 4, 4);
+        const std::array<SubpixelPoint, 3> p{base.a, base.b, random_line(random, 4, 4).a};
         std::array<float, 3> least{1, 1, 1}, most{0, 0, 0};
         for (std::size_t k = 0; k < 3; ++k) {
             const ClipVertex v = colored({}, static_cast<float>(k) / 4);
