@@ -82,10 +82,10 @@ TEST_CASE("a peel composites lines, points and triangles by depth") {
     const DrawList list = mixed_list();
     DrawList opaque_alone = list;
     opaque_alone.instances.erase(opaque_alone.instances.begin(), opaque_alone.instances.begin() + 3);
-    constexpr std::pair<const char*, const char*> machines[]{
+    constexpr std::pair<const char*, const char*> shape_machines[]{
         {"ideal", "dual"},      {"ideal", "front_to_back"},    {"ideal", "a_buffer"},    {"geforce8", "dual"},
         {"direct3d11", "dual"}, {"geforce8", "front_to_back"}, {"ideal", "linked_list"}, {"geforce8", "depth_units"}};
-    for (const auto& [profile, algorithm] : machines) {
+    for (const auto& [profile, algorithm] : shape_machines) {
         INFO(profile << ' ' << algorithm);
         const RenderOptions options = mixed_options();
         const RenderResult result = render(list, {}, {profile, algorithm}, options);
@@ -127,9 +127,9 @@ TEST_CASE("NV2A's peel keeps the order of lines and points, too") {
 
 TEST_CASE("lines and points have the same bits in every execution, with tiles of every size, on one thread or two") {
     const DrawList list = mixed_list();
-    constexpr std::pair<const char*, const char*> machines[]{
+    constexpr std::pair<const char*, const char*> shape_machines[]{
         {"geforce3", "depth_units"}, {"geforce8", "dual"}, {"ideal", "front_to_back"}, {"ideal", "linked_list"}};
-    for (const auto& [profile, algorithm] : machines) {
+    for (const auto& [profile, algorithm] : shape_machines) {
         std::optional<Image> first;
         for (const Running& running : all_ways_of_running)
             for (const int tile : {8, 64}) {
