@@ -43,8 +43,8 @@ std::uint64_t held_memory() { return kilobytes("/proc/self/status", "VmRSS:").va
 
 std::optional<std::uint64_t> free_memory() {
     std::optional<std::uint64_t> free = kilobytes("/proc/meminfo", "MemAvailable:");
-    const auto limit = number_in("/sys/fs/cgroup/memory.max"), used = number_in("/sys/fs/cgroup/memory.current");
-    if (limit && used) free = std::min(free.value_or(~std::uint64_t{0}), *limit - std::min(*limit, *used));
+    const auto most = number_in("/sys/fs/cgroup/memory.max"), used = number_in("/sys/fs/cgroup/memory.current");
+    if (most && used) free = std::min(free.value_or(~std::uint64_t{0}), *most - std::min(*most, *used));
     return free;
 }
 

@@ -132,11 +132,11 @@ void forget_unfinished_file(int slot) noexcept { slots[slot].state = Slot::empty
 void kill_group_on_interrupt(int of_command) noexcept { group = of_command; }
 
 void remove_unfinished_files() noexcept {
-    constexpr int most_levels = 64;
+    constexpr int most_folders = 64;
     is_ending = true;
     if (const int of_command = group; of_command > 0) ::kill(-of_command, SIGKILL);
     for (const Slot& slot : slots)
-        if (slot.state == Slot::active) remove_tree(AT_FDCWD, slot.path, slot.is_folder ? most_levels : 0);
+        if (slot.state == Slot::active) remove_tree(AT_FDCWD, slot.path, slot.is_folder ? most_folders : 0);
 }
 
 void set_interrupt_message(std::string_view message) noexcept {

@@ -12,9 +12,9 @@ struct Attribute {
     ElementType type;
     bool may_be_normalized;
 };
-constexpr Attribute attributes[]{{"TRANSLATION", ElementType::vec3, false},
-                                 {"ROTATION", ElementType::vec4, true},
-                                 {"SCALE", ElementType::vec3, false}};
+constexpr Attribute instance_attributes[]{{"TRANSLATION", ElementType::vec3, false},
+                                          {"ROTATION", ElementType::vec4, true},
+                                          {"SCALE", ElementType::vec3, false}};
 
 // The reader of an attribute, or null; the check has verified that all attributes have the same count.
 const AccessorReader* reader_of(const JsonAt& instancing, const char* name, Accessors& accessors) {
@@ -47,7 +47,7 @@ std::optional<JsonAt> instancing_of(const JsonAt& node) {
 void check_instancing(const JsonAt& instancing, const JsonAt& root) {
     const JsonAt given = instancing.member("attributes").object();
     std::optional<std::uint64_t> count;
-    for (const Attribute& attribute : attributes) {
+    for (const Attribute& attribute : instance_attributes) {
         const auto at = given.find(attribute.name);
         if (!at) continue;
         const Json& accessor = root.json()["accessors"][at->index(root.size("accessors"))];

@@ -117,10 +117,9 @@ Verdict RightPicture::decide(Verdict verdict, CheckedAccount&& right, const Samp
     verdict.explanations = told_without_edges(scene_, candidate_, all_.definite, verdict.right, even);
     work.restart();
     if (!verdict.explanations.empty()) return verdict;
-    // A doubted picture is not called right whatever the search finds, so that a short one suffices.
     verdict.doubt = doubt_of(scene_, candidate_, verdict.right, all_.definite);
     work.begin_stage(0.5, 0.6);
-    work.allow(verdict.doubt.empty() ? narrower_ : doubted_);
+    work.allow(narrower_);
     verdict.explanations = told_better(scene_, candidate_, all_, verdict.right, even);
     verdict.is_stopped = work.is_cut_short();
     work.restart();

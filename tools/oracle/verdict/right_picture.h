@@ -6,7 +6,6 @@
 //          mistake that describes the picture in fewer bits than the right account with wide intervals does: a picture
 //          that only wide intervals reach is no evidence. If the search for it is cut short, the picture is not
 //          decided.
-// Numbers  A doubted picture is not called right whatever the search finds, so that its search is short.
 // Tests    tests/tools/oracle/verdict/verdict_test.cpp, picture_verdict_test.cpp
 #pragma once
 #include "tools/oracle/search/match.h"
@@ -34,7 +33,6 @@ class RightPicture {
           candidate_{candidate},
           all_{all},
           narrower_{limits.narrower + limits.of_fragment * scene.count()},
-          doubted_{limits.mistakes + limits.of_fragment * scene.count()},
           of_edges_{limits.narrower / 30 + limits.of_fragment * scene.count()} {}
 
     // `verdict` has the facts of the scene, `right` is whole, and `even` is a sample of the picture.
@@ -44,7 +42,7 @@ class RightPicture {
     const SceneFragments& scene_;
     const Colors& candidate_;
     const Choices& all_;
-    std::uint64_t narrower_, doubted_, of_edges_;
+    std::uint64_t narrower_, of_edges_;
 };
 
 }  // namespace strata::oracle::verdict

@@ -252,6 +252,7 @@ bool fits_by_rounding(const CheckedAccount& c) {
 
 Verdict judge_at_length(SceneFragments& scene, const Colors& candidate, const SearchLimits& limits) {
     Verdict verdict = found_at_length(scene, candidate, limits);
+    const bool was_explained = !verdict.explanations.empty();
     // Under rounding as wide as this a mistake explains a picture that has another one.
     const std::size_t wide = std::erase_if(verdict.explanations, [](const CheckedAccount& c) {
         return has_codes(c.account.hypothesis.result.storage) && c.observed > most_codes_of_right;
@@ -266,8 +267,9 @@ Verdict judge_at_length(SceneFragments& scene, const Colors& candidate, const Se
     std::erase_if(verdict.explanations, [&](const CheckedAccount& c) {
         return c.undecided > 0 && !doubt_of(scene, candidate, c, all.definite).empty();
     });
-    if (wide > 0 && verdict.explanations.empty() && verdict.right.is_whole())
-        verdict.doubt = "a mistake explains the picture better, but needs rounding of more than 5 codes";
+    if (was_explained && verdict.explanations.empty() && verdict.right.is_whole())
+        verdict.doubt = wide > 0 ? "a mistake explains the picture better, but needs rounding of more than 5 codes"
+                                 : "a mistake explains the picture better, but moves values by less than rounding does";
     sort_explanations(verdict);
     return verdict;
 }

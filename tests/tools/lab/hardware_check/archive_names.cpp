@@ -66,13 +66,18 @@ void add_sample_suites(Archive& archive) {
     add(archive, Outcome::not_modelled, "Antialiasing_tests", {"GPUAAWriteAfterCPUWrite"}, 1);
     const Names commands{"", "-inlinebuf", "-inlinearrays", "-inlineelements"};
     const Names filled = with({"Triangles", "TriStrip", "TriFan", "Quads", "QuadStrip", "Polygon"}, commands);
-    add(archive, Outcome::drawn, "3D_primitive", with(filled, {"", "-ls"}), 48);
-    add(archive, Outcome::not_modelled, "3D_primitive", with(filled, {"-ps", "-ls-ps"}), 48);
+    add(archive, Outcome::drawn, "3D_primitive", with(filled, {"", "-ls", "-ps", "-ls-ps"}), 96);
     const Names others = with({"Points", "Lines", "LineLoop", "LineStrip"}, commands);
-    add(archive, Outcome::drawn, "3D_primitive", with(others, {"", "-ps"}), 32);
-    add(archive, Outcome::drawn, "3D_primitive", with(with({"Points"}, commands), {"-ls", "-ls-ps"}), 8);
-    const Names lines = with({"Lines", "LineLoop", "LineStrip"}, commands);
-    add(archive, Outcome::not_modelled, "3D_primitive", with(lines, {"-ls", "-ls-ps"}), 24);
+    add(archive, Outcome::drawn, "3D_primitive", with(others, {"", "-ls", "-ps", "-ls-ps"}), 64);
+    add(archive, Outcome::drawn, "Stipple_tests",
+        {"Checkered_Off", "Checkered_On", "Zero_On", "Border_On", "Alternating_On"}, 5);
+    add(archive, Outcome::drawn, "Point_params",
+        with({"PointParamsOff_SmoothOff_128", "PointParamsOn_SmoothOn_128", "PointParamsOn_SmoothOff_128", "Detailed"},
+             {"_FF", "_VS"}),
+        8);
+    add(archive, Outcome::drawn, "Point_params", {"PointParamsOn_SmoothOn_001_FF"}, 1);
+    const Names constants{"Scale_0_", "Scale_4_"}, distances{"0_0", "1_0", "0_1", "1_1"};
+    add(archive, Outcome::drawn, "Point_params", with(with(constants, distances), {"_FF", "_VS"}), 16);
 }
 
 void add_depth_suites(Archive& archive) {
@@ -131,8 +136,7 @@ void add_geometry_suites(Archive& archive) {
     add(archive, Outcome::not_modelled, "Surface_clip", with({"rt_"}, clips), 6);
     add(archive, Outcome::not_modelled, "Surface_clip", {"XemuBug420", "DebugTextShouldClip"}, 2);
     const Names faces = with({"CW", "CCW", "0x00", "0x63"}, {"_CF_F", "_CF_B", "_CF_FaB"});
-    add(archive, Outcome::drawn, "Front_face", with({"FrontFace_", "FrontFace_FM_"}, faces), 24);
-    add(archive, Outcome::not_modelled, "Front_face", with({"FrontFace_LM_"}, faces), 12);
+    add(archive, Outcome::drawn, "Front_face", with({"FrontFace_", "FrontFace_FM_", "FrontFace_LM_"}, faces), 36);
     const Names first{"x0y0_w0h0",     "x0y0_w256h256", "x8y16_w3840h3840", "x0y0_w255h255",
                       "x1y1_w254h254", "x1y1_w253h253", "x0y0_w128h128",    "x0y0_w1h1",
                       "x255y255_w1h1", "x256y256_w1h1", "x96y96_w64h64"};

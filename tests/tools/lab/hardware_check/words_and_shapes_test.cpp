@@ -48,31 +48,32 @@ TEST_CASE("a word in a file name has its documented meaning and is case sensitiv
                                                             {"A", CompareFunc::always}};
     for (const auto& [word, meaning] : compares) CHECK(compare_func(word) == meaning);
     for (const char* word : {"", "never", "NeverX", "L", "AL", "Less "}) CHECK_FALSE(compare_func(word));
-    const std::pair<const char*, BlendFactor> factors[] = {{"0", BlendFactor::zero},
-                                                           {"1", BlendFactor::one},
-                                                           {"srcRGB", BlendFactor::src_color},
-                                                           {"1-srcRGB", BlendFactor::one_minus_src_color},
-                                                           {"srcA", BlendFactor::src_alpha},
-                                                           {"1-srcA", BlendFactor::one_minus_src_alpha},
-                                                           {"dstA", BlendFactor::dst_alpha},
-                                                           {"1-dstA", BlendFactor::one_minus_dst_alpha},
-                                                           {"dstRGB", BlendFactor::dst_color},
-                                                           {"1-dstRGB", BlendFactor::one_minus_dst_color},
-                                                           {"srcAsat", BlendFactor::src_alpha_saturate},
-                                                           {"cRGB", BlendFactor::constant_color},
-                                                           {"1-cRGB", BlendFactor::one_minus_constant_color},
-                                                           {"cA", BlendFactor::constant_alpha},
-                                                           {"1-cA", BlendFactor::one_minus_constant_alpha}};
-    for (const auto& [word, meaning] : factors) CHECK(blend_factor(word) == meaning);
+    const std::pair<const char*, BlendFactor> named_factors[] = {{"0", BlendFactor::zero},
+                                                                 {"1", BlendFactor::one},
+                                                                 {"srcRGB", BlendFactor::src_color},
+                                                                 {"1-srcRGB", BlendFactor::one_minus_src_color},
+                                                                 {"srcA", BlendFactor::src_alpha},
+                                                                 {"1-srcA", BlendFactor::one_minus_src_alpha},
+                                                                 {"dstA", BlendFactor::dst_alpha},
+                                                                 {"1-dstA", BlendFactor::one_minus_dst_alpha},
+                                                                 {"dstRGB", BlendFactor::dst_color},
+                                                                 {"1-dstRGB", BlendFactor::one_minus_dst_color},
+                                                                 {"srcAsat", BlendFactor::src_alpha_saturate},
+                                                                 {"cRGB", BlendFactor::constant_color},
+                                                                 {"1-cRGB", BlendFactor::one_minus_constant_color},
+                                                                 {"cA", BlendFactor::constant_alpha},
+                                                                 {"1-cA", BlendFactor::one_minus_constant_alpha}};
+    for (const auto& [word, meaning] : named_factors) CHECK(blend_factor(word) == meaning);
     for (const char* word : {"", "2", "1-", "1-1", "SrcA", "srcA "}) CHECK_FALSE(blend_factor(word));
-    const std::pair<const char*, BlendEquation> equations[] = {{"ADD", BlendEquation::add},
-                                                               {"SUB", BlendEquation::subtract},
-                                                               {"REVSUB", BlendEquation::reverse_subtract},
-                                                               {"MIN", BlendEquation::min},
-                                                               {"MAX", BlendEquation::max},
-                                                               {"SADD", BlendEquation::signed_add},
-                                                               {"SREVSUB", BlendEquation::signed_reverse_subtract}};
-    for (const auto& [word, meaning] : equations) CHECK(blend_equation(word) == meaning);
+    const std::pair<const char*, BlendEquation> named_equations[] = {
+        {"ADD", BlendEquation::add},
+        {"SUB", BlendEquation::subtract},
+        {"REVSUB", BlendEquation::reverse_subtract},
+        {"MIN", BlendEquation::min},
+        {"MAX", BlendEquation::max},
+        {"SADD", BlendEquation::signed_add},
+        {"SREVSUB", BlendEquation::signed_reverse_subtract}};
+    for (const auto& [word, meaning] : named_equations) CHECK(blend_equation(word) == meaning);
     for (const char* word : {"", "add", "SSUB"}) CHECK_FALSE(blend_equation(word));
 }
 

@@ -51,7 +51,7 @@ ACCEPTED = {
 # Messages may use these names instead.
 SHORT = {"--output": ["-o"]}
 # Checked only after the files are read, and there are none here.
-LATE = {("compare", "--algorithm"), ("diagnose", "--profile"), ("diagnose", "--profiles"), ("diagnose", "--sorted"), ("diagnose", "--camera"),
+LATE = {("compare", "--algorithm"), ("diagnose", "--profile"), ("diagnose", "--profiles"), ("diagnose", "--sorted"), ("diagnose", "--only"), ("diagnose", "--camera"),
         ("reduce", "--algorithm"), ("reduce", "--picture"), ("explain", "--candidate"), ("infer", "--output")}
 ANY_NAME = ("PACK", "FILE", "FILE|-", "FOLDER", "DIR", "FILE.svg", "FILE.png", "FILE.xml", "FILE.html|FOLDER")
 

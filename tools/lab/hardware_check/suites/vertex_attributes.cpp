@@ -108,7 +108,7 @@ Color carried_over(AttributeKind kind, const CarryoverTest& test, float flag) {
 
 // With indices the last vertex is drawn first.
 void draw_in_order(pipeline::Surface& surface, const CarryoverTest& test, std::vector<ClipVertex> vertices) {
-    if (test.is_indexed) std::ranges::rotate(vertices, vertices.end() - 1);
+    if (test.is_indexed) std::rotate(vertices.begin(), vertices.end() - 1, vertices.end());
     const Topology topology = vertices.size() == 2 ? Topology::lines : Topology::triangles;
     SplitDraw draw = split_draw(topology, vertices, PolygonMode::fill);
     surface.draw({}, std::move(draw.soup), draw.primitive);

@@ -73,13 +73,14 @@ Drawing draw_vertex_swizzle(std::string_view name, const pipeline::DeviceProfile
     pipeline::Surface surface{profile, {}};
     surface.clear_color(unpack(0xfe312f31));
     draw_checkerboard(surface, 24, 0xff202020, 0xff000000, 0);
-    constexpr float side = 96, step_x = (640 - side * 3) / 4, step_y = (480 - side * 3) / 4 + 10;
+    constexpr float quad_side = 96, step_x = (640 - quad_side * 3) / 4, step_y = (480 - quad_side * 3) / 4 + 10;
     for (std::size_t k = 0; k < colors.size(); ++k) {
-        const float left = step_x + static_cast<float>(k % 3) * (side + step_x),
-                    top = step_y + static_cast<float>(k / 3) * (side + step_y);
+        const float left = step_x + static_cast<float>(k % 3) * (quad_side + step_x),
+                    top = step_y + static_cast<float>(k / 3) * (quad_side + step_y);
         TriangleSoup square;
-        add_quad(square, {at(left, top, 0, colors[k]), at(left + side, top, 0, colors[k]),
-                          at(left + side, top + side, 0, colors[k]), at(left, top + side, 0, colors[k])});
+        add_quad(square,
+                 {at(left, top, 0, colors[k]), at(left + quad_side, top, 0, colors[k]),
+                  at(left + quad_side, top + quad_side, 0, colors[k]), at(left, top + quad_side, 0, colors[k])});
         surface.draw(state, square);
     }
     return {SuitePicture{.image = surface.color()}, {}};

@@ -171,6 +171,7 @@ std::vector<int> searched_values(const ProfileField& f, int current) {
 bool is_valid(const DeviceProfile& profile) {
     const RasterRules& r = profile.raster;
     if (r.depth_path == DepthPath::depth_replace || r.depth_path == DepthPath::w_buffer) return false;
+    if (is_written_by_program(r.depth_path)) return false;
     if (r.depth_path == DepthPath::window_z && r.window_z != WindowZ::buffer_units) return false;
     if (pipeline::conflict_of(profile)) return false;
     if (r.coverage == CoverageRule::float_spans && is_chip_depth(r)) return false;
