@@ -8,6 +8,7 @@
 
 #include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/numerics.h"
+#include "rasterizer/base/split_mix.h"
 
 namespace strata::peeling {
 
@@ -59,14 +60,6 @@ void sort_into_buckets(Numbers& numbers, const Keys& keys, int buckets) {
                      [&](std::uint32_t a, std::uint32_t b) { return bucket(a) < bucket(b); });
 }
 
-// SplitMix64 (Steele, Lea and Flood 2014).
-std::uint64_t next_random(std::uint64_t& state) {
-    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
 // Permutes `fraction` of the entries, rounded, in one cycle.
 void disorder(Numbers& numbers, double fraction, std::uint64_t seed) {
     // Rounded half up. A single entry cannot be permuted.
@@ -76,8 +69,9 @@ void disorder(Numbers& numbers, double fraction, std::uint64_t seed) {
     std::iota(positions.begin(), positions.end(), 0u);
     // A partial Fisher-Yates shuffle: the first `moved` positions are chosen at random without repetition. The bias of
     // the remainder is below 2^-32.
+    SplitMix64 random{seed};
     for (std::size_t i = 0; i < moved; ++i)
-        std::swap(positions[i], positions[i + next_random(seed) % (positions.size() - i)]);
+        std::swap(positions[i], positions[i + random.next() % (positions.size() - i)]);
     // One cycle moves every chosen entry; pairwise swaps would leave one of an odd number unmoved.
     const std::uint32_t first = numbers[positions[0]];
     for (std::size_t i = 0; i + 1 < moved; ++i) numbers[positions[i]] = numbers[positions[i + 1]];

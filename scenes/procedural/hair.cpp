@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "rasterizer/base/split_mix.h"
 #include "rasterizer/rules/primitive.h"
 #include "scenes/bounds.h"
-#include "scenes/numbers/split_mix.h"
 #include "scenes/numbers/srgb_encode.h"
 
 namespace strata::scenes {

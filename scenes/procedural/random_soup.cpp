@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "rasterizer/base/numerics.h"
+#include "rasterizer/base/split_mix.h"
 #include "scenes/bounds.h"
-#include "scenes/numbers/split_mix.h"
 #include "scenes/numbers/srgb_encode.h"
 
 namespace strata::scenes {

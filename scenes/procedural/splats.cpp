@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "rasterizer/base/split_mix.h"
 #include "rasterizer/rules/primitive.h"
 #include "scenes/bounds.h"
-#include "scenes/numbers/split_mix.h"
 #include "scenes/numbers/srgb_encode.h"
 #include "scenes/procedural/teapot.h"
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "rasterizer/rules/primitive.h"
 #include "scenes/bounds.h"
 #include "scenes/numbers/srgb_encode.h"
 #include "scenes/procedural/teapot.h"
@@ -37,7 +38,8 @@ pipeline::Mesh wires_around(const pipeline::Mesh& pot, int tessellation) {
         const std::uint32_t a = pot.indices[i], b = pot.indices[i % 3 == 2 ? i - 2 : i + 1];
         if ((a < b ? b - a : a - b) == diagonal) continue;
         const auto ends = std::minmax({key_of(pot.positions[a]), key_of(pot.positions[b])});
-        if (known.insert({ends.first, ends.second}).second) wires.indices.insert(wires.indices.end(), {a, a, b});
+        if (known.insert({ends.first, ends.second}).second)
+            rasterizer::append_primitive(wires.indices, std::array{a, b});
     }
     return wires;
 }

@@ -180,12 +180,12 @@ void check_memory_of(const InvarianceOptions& options, const std::vector<Cell>& 
 int measure_precision(const InvarianceOptions& options) {
     if (!options.run.scene.empty() || !options.plan.empty() || !options.keys.empty())
         throw CLI::ValidationError("--precision takes neither a scene nor a plan");
-    const std::string csv = precision_csv(*options.precision);
+    const std::vector<PrecisionRow> rows = precision_rows(*options.precision);
     if (const std::string& folder = options.run.output; !folder.empty()) {
         std::filesystem::create_directories(folder);
-        scenes::write_file(folder + "/precision.csv", csv);
+        scenes::write_file(folder + "/precision.csv", precision_csv(rows));
     }
-    print(titled(precision_table(csv)));
+    print(titled(precision_table(rows)));
     return 0;
 }
 

@@ -66,6 +66,8 @@ class DistantCode {
 
 constexpr int surfaces = 16;  // at each distance
 
+std::string step_text(double step) { return fmt::format("{:.3g}", step); }
+
 std::optional<double> step_at(DistantCode& code, double distance, double far) {
     const std::uint32_t own = code(distance);
     const auto is_told = [&](double e) { return code(distance + e) > own; };
@@ -118,33 +120,34 @@ std::vector<double> distances_in(const DepthSpan& span) {
     return all;
 }
 
-std::string precision_csv(const DepthSpan& span) {
+std::vector<PrecisionRow> precision_rows(const DepthSpan& span) {
+    std::vector<PrecisionRow> rows;
+    for (const double distance : distances_in(span)) {
+        PrecisionRow& row = rows.emplace_back(PrecisionRow{.distance = distance});
+        for (const DepthChoice& choice : depth_choices()) row.steps.push_back(depth_step(choice, span, distance));
+    }
+    return rows;
+}
+
+std::string precision_csv(const std::vector<PrecisionRow>& rows) {
     std::string text = "distance";
     for (const DepthChoice& choice : depth_choices()) text += "," + choice.name;
     text += '\n';
-    for (const double distance : distances_in(span)) {
-        text += fmt::format("{}", distance);
-        for (const DepthChoice& choice : depth_choices()) {
-            const auto step = depth_step(choice, span, distance);
-            text += step ? fmt::format(",{:.3g}", *step) : ",";
-        }
+    for (const PrecisionRow& row : rows) {
+        text += fmt::format("{}", row.distance);
+        for (const auto& step : row.steps) text += step ? "," + step_text(*step) : ",";
         text += '\n';
     }
     return text;
 }
 
-std::string precision_table(const std::string& csv) {
-    Table table;
-    for (const std::string& line : split(csv, '\n')) {
-        if (line.empty()) continue;
-        std::vector<std::string> cells = split(line, ',');
-        if (table.columns.empty()) {
-            for (const std::string& title : cells) table.columns.push_back({title, Align::right});
-            continue;
-        }
-        for (std::string& cell : cells)
-            if (cell.empty()) cell = "none";
-        table.rows.push_back(std::move(cells));
+std::string precision_table(const std::vector<PrecisionRow>& rows) {
+    Table table{{{"distance", Align::right}}, {}};
+    for (const DepthChoice& choice : depth_choices()) table.columns.push_back({choice.name, Align::right});
+    for (const PrecisionRow& row : rows) {
+        std::vector<std::string>& cells = table.rows.emplace_back();
+        cells.push_back(fmt::format("{}", row.distance));
+        for (const auto& step : row.steps) cells.push_back(step ? step_text(*step) : "none");
     }
     return to_text(table);
 }

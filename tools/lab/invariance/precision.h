@@ -36,8 +36,14 @@ struct DepthSpan {
 // The distances 1, 2 and 5 times a power of ten from near on and before far.
 [[nodiscard]] std::vector<double> distances_in(const DepthSpan& span);
 
+// The steps of every choice at a distance.
+struct PrecisionRow {
+    double distance = 0;
+    std::vector<std::optional<double>> steps{};
+};
+[[nodiscard]] std::vector<PrecisionRow> precision_rows(const DepthSpan& span);
 // A row for each distance, a column for each choice; as CSV with a title, or for people.
-[[nodiscard]] std::string precision_csv(const DepthSpan& span);
-[[nodiscard]] std::string precision_table(const std::string& csv);
+[[nodiscard]] std::string precision_csv(const std::vector<PrecisionRow>& rows);
+[[nodiscard]] std::string precision_table(const std::vector<PrecisionRow>& rows);
 
 }  // namespace strata::tools

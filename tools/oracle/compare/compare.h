@@ -109,6 +109,12 @@ struct Comparison {
     std::array<bool, kind_count> is_tested{};  // whether the targets can show the kind: layers, depths, a background
     std::vector<bool> is_beyond{};             // per pixel: differs by more than the tolerances in codes accept
     bool equal = false, accepted = false;      // equal: without tolerances; accepted: with tolerances
+    // The largest distance of all targets.
+    [[nodiscard]] std::uint32_t greatest() const noexcept {
+        std::uint32_t most = 0;
+        for (const TargetReport& target : targets) most = std::max(most, target.greatest);
+        return most;
+    }
 };
 
 // InputError for images of unequal size and for those that have no target in common. `background` is the reference's if

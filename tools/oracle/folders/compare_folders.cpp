@@ -32,16 +32,10 @@ void trim(Comparison& found) {
     for (TargetReport& target : found.targets) target.distances.clear();
 }
 
-std::uint32_t greatest_distance(const Comparison& found) {
-    std::uint32_t greatest = 0;
-    for (const TargetReport& target : found.targets) greatest = std::max(greatest, target.greatest);
-    return greatest;
-}
-
 std::string sentence_of(const Comparison& found) {
     if (found.equal) return "";
     const auto pixels = static_cast<std::uint64_t>(found.width) * static_cast<std::uint64_t>(found.height);
-    const std::uint32_t greatest = greatest_distance(found);
+    const std::uint32_t greatest = found.greatest();
     std::string text = fmt::format("{} of {} pixels differ", found.differing, pixels);
     if (greatest > 0) text += fmt::format(" by at most {} code{}", greatest, greatest == 1 ? "" : "s");
     for (const TargetReport& target : found.targets)

@@ -42,14 +42,21 @@ ordered_json json_or_null(const std::string& text) { return text.empty() ? order
 
 }  // namespace
 
-std::string first_line(const FolderSummary& summary) {
+std::string counts_of(const FolderSummary& summary) {
     const std::string all = counted(summary.all(), "picture");
     if (summary.failed() > 0)
-        return fmt::format("different: {} of {} fail{}: {}", summary.failed(), all, summary.failed() == 1 ? "s" : "",
+        return fmt::format("{} of {} fail{}: {}", summary.failed(), all, summary.failed() == 1 ? "s" : "",
                            failed_states(summary));
-    if (summary.of(CaseState::accepted) == 0) return fmt::format("equal: {}", all);
-    return fmt::format("accepted: {} of {} differ{} within the tolerance", summary.of(CaseState::accepted), all,
-                       summary.of(CaseState::accepted) == 1 ? "s" : "");
+    const std::size_t accepted = summary.of(CaseState::accepted);
+    if (accepted == 0) return all;
+    return fmt::format("{} of {} differ{} within the tolerance", accepted, all, accepted == 1 ? "s" : "");
+}
+
+std::string first_line(const FolderSummary& summary) {
+    const char* const state = summary.failed() > 0                  ? "different"
+                              : summary.of(CaseState::accepted) > 0 ? "accepted"
+                                                                    : "equal";
+    return fmt::format("{}: {}", state, counts_of(summary));
 }
 
 std::string words_of(const FolderCase& one) {

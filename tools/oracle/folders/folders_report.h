@@ -9,7 +9,9 @@
 
 namespace strata::oracle {
 
-// "different: 3 of 4 pictures fail: 1 different, 1 missing, 1 extra"
+// "3 of 4 pictures fail: 1 different, 1 missing, 1 extra"
+[[nodiscard]] std::string counts_of(const FolderSummary& summary);
+// The state, then these words: "different: 3 of 4 pictures fail: ..."
 [[nodiscard]] std::string first_line(const FolderSummary& summary);
 // "different (nearest of 2 baselines: menu@mac.png): 2 of 384 pixels differ by at most 3 codes; ..."
 [[nodiscard]] std::string words_of(const FolderCase& one);

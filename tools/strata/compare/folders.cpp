@@ -1,9 +1,9 @@
 // tools/strata/compare/folders.cpp - runs compare on two folders of pictures and writes what it found (folders.h).
 #include "tools/strata/compare/folders.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/atomic_file.h"
@@ -52,12 +52,11 @@ class FolderPage {
     }
 
     [[nodiscard]] PlainPage page(const std::string& command, const oracle::FolderSummary& summary) const {
-        const std::string first = oracle::first_line(summary);
         PlainPage page{summary.failed() > 0                          ? "Different"
                        : summary.of(oracle::CaseState::accepted) > 0 ? "Within the tolerance"
                                                                      : "Equal",
                        command};
-        page.lead(first.substr(first.find(' ') + 1) + ".");
+        page.lead(oracle::counts_of(summary) + ".");
         for (const FolderCase& one : failed_) {
             page.heading(one.name);
             page.paragraph(oracle::words_of(one));
@@ -85,10 +84,7 @@ class FolderPage {
             row.insert(row.end(), {"-", "-", one.sentence});
             return row;
         }
-        std::uint32_t greatest = 0;
-        for (const oracle::TargetReport& target : one.comparison->targets)
-            greatest = std::max(greatest, target.greatest);
-        row.insert(row.end(), {std::to_string(one.comparison->differing), std::to_string(greatest),
+        row.insert(row.end(), {std::to_string(one.comparison->differing), std::to_string(one.comparison->greatest()),
                                one.sentence.empty() ? "-" : one.sentence});
         return row;
     }
@@ -149,10 +145,10 @@ int compare_two_folders(oracle::FolderQuestion question, const FolderOutputs& ou
     std::string lines;
     Progress bar("pictures", Remaining::shown);
     question.progress = [&](double share) { bar.show(share); };
-    std::vector<std::string> targets;
+    std::set<std::string> targets;
     const oracle::FolderSummary summary = oracle::compare_folders(question, [&](FolderCase&& one) {
         if (one.comparison)
-            for (const oracle::TargetReport& target : one.comparison->targets) targets.push_back(target.name);
+            for (const oracle::TargetReport& target : one.comparison->targets) targets.insert(target.name);
         cases.push_back(oracle::junit_case(one));
         if (outputs.json)
             documents.push_back(oracle::json_of(one));
@@ -160,9 +156,7 @@ int compare_two_folders(oracle::FolderQuestion question, const FolderOutputs& ou
             lines += oracle::line_of(one) + '\n';
         if (question.has_pictures) page.add(one);
     });
-    std::ranges::sort(targets);
-    targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
-    check_targets(question.tolerances, targets);
+    check_targets(question.tolerances, {targets.begin(), targets.end()});
     if (!outputs.junit.empty()) scenes::write_file(outputs.junit, oracle::to_junit(cases));
     write_page(outputs.report,
                page.page("strata compare " + folder_name(question.reference) + " " + folder_name(question.candidate),

@@ -8,17 +8,13 @@
 #include <numeric>
 
 #include "pipeline/vertices/matrix.h"
+#include "rasterizer/base/split_mix.h"
 
 namespace strata::tools {
 
 namespace {
 
-std::uint64_t splitmix64(std::uint64_t state) noexcept {
-    std::uint64_t z = state + 0x9e3779b97f4a7c15U;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31);
-}
+std::uint64_t mixed(std::uint64_t state) noexcept { return SplitMix64{state}.next(); }
 
 // Numbers the distinct positions of the mesh; returns the number of each vertex's position.
 std::vector<std::size_t> places_of(const pipeline::Mesh& mesh, std::size_t& count) {
@@ -69,7 +65,7 @@ scenes::Scene moved(const scenes::Scene& scene, const Move& move) {
             for (int axis = 0; axis < 3; ++axis) {
                 const std::size_t number = before + 3 * places[i] + static_cast<std::size_t>(axis);
                 if (move.alone && *move.alone != number) continue;
-                const bool up = (splitmix64(splitmix64(move.seed) ^ number) & 1) != 0;
+                const bool up = (mixed(mixed(move.seed) ^ number) & 1) != 0;
                 mesh.positions[i][axis] = moved_value(mesh.positions[i][axis], move.size, up);
             }
         before += 3 * count;
@@ -82,7 +78,7 @@ Permuted permuted(const scenes::Scene& scene, std::uint64_t seed) {
     Permuted result{scene, std::vector<std::uint32_t>(scene.list.meshes[0].indices.size() / 3)};
     std::iota(result.from.begin(), result.from.end(), 0U);
     for (std::size_t left = result.from.size(); left > 1; --left)
-        std::swap(result.from[left - 1], result.from[splitmix64(seed ^ splitmix64(left)) % left]);
+        std::swap(result.from[left - 1], result.from[mixed(seed ^ mixed(left)) % left]);
     const auto& old = scene.list.meshes[0].indices;
     for (std::size_t i = 0; i < result.from.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k)

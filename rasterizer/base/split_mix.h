@@ -1,11 +1,11 @@
-// scenes/numbers/split_mix.h - the random numbers of procedural scenes.
+// rasterizer/base/split_mix.h - random numbers of sorts, procedural scenes and moves.
 #pragma once
 #include <cstdint>
 
-namespace strata::scenes {
+namespace strata {
 
-// Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number Generators": uses only integers, so a scene has the
-// same bits everywhere, which the standard library's distributions do not guarantee.
+// Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number Generators": uses only integers, so that
+// they have the same bits everywhere, which the standard library's distributions do not guarantee.
 class SplitMix64 {
   public:
     explicit SplitMix64(std::uint64_t seed) noexcept : state_{seed} {}
@@ -23,4 +23,4 @@ class SplitMix64 {
     std::uint64_t state_;
 };
 
-}  // namespace strata::scenes
+}  // namespace strata
