@@ -2,9 +2,8 @@
 // value.
 //
 // Rule     Features and limits are those of a built-in device, because a driver reports them. Powers of two are equally
-//          likely for a guard band; a grid of subpixels has 4, 8 or 12 bits, for which the kit's scenes are made; no
-//          program writes the depth; every other field has any of its values. Values are drawn until all are
-//          consistent (fields.h).
+//          likely for a guard band; every other field has any of its values. Values are drawn until all are consistent
+//          (fields.h).
 #pragma once
 #include <fmt/format.h>
 
@@ -14,8 +13,6 @@
 namespace strata::probe {
 
 inline int random_value(const ProfileField& f, RandomGenerator& random) {
-    if (f.key == "raster.subpixel_bits") return 4 + 4 * random.below(3);
-    if (f.key == "raster.depth_path") return random.below(static_cast<int>(rasterizer::DepthPath::logarithmic));
     if (f.key != "raster.guard_band_px") return f.lowest + f.step * random.below((f.highest - f.lowest) / f.step + 1);
     const int power = 512 << random.below(10);
     return power + random.below(power);
