@@ -1,4 +1,6 @@
 // Tests the library's verdict on pictures that the library renders with another format, and with layers lost.
+#include "tools/oracle/judge/judge.h"
+
 #include <strata/catch2.h>
 #include <strata/strata.h>
 
@@ -6,8 +8,10 @@
 
 #include "tools/oracle/emulations/catalogue.h"
 #include "tools/oracle/emulations/mistake_renderer.h"
+#include "tools/oracle/suite/suite.h"
 
 using Catch::Contains;
+using Catch::EndsWith;
 using Catch::StartsWith;
 
 namespace {
@@ -113,6 +117,32 @@ TEST_CASE("judge and diagnose give one state and one first sentence about forty 
         }
     CHECK(unlike == "");
     CHECK(pictures >= 40);
+}
+
+// 255 times 0.7 in binary32 is 178.499997, which binary32 rounds to 178.5.
+TEST_CASE("of an approximate algorithm a background in the middle between two codes may have either one") {
+    using namespace strata::oracle;
+    OpenScene opened = open({.scene = "planes:count=8", .algorithm = "weighted_sum", .profile = "ideal"});
+    opened.options.background = {0.8f, 0.7f, 0.2f, 1};
+    const TargetImage right = MistakeRenderer{opened.input(), *opened.algorithm}.right().targets[0];
+    const auto judged = [&](std::uint32_t green, Effort effort) {
+        TargetImage file{.name = "color", .width = 64, .height = 64, .channels = 3, .holds_encoded = true};
+        for (std::size_t i = 0; i < right.pixels(); ++i)
+            for (int c = 0; c < 3; ++c) {
+                const std::uint32_t code = nearest(Code::unorm8, right.value_at(i, c));
+                file.codes.push_back(c == 1 && code == 178 ? green : code);
+            }
+        const Picture picture{.file = "", .targets = {file}};
+        return judge(opened.input(), {.candidate = picture, .has_alpha = false, .algorithm = opened.algorithm}, effort);
+    };
+    for (const Effort effort : {Effort::single, Effort::all}) {
+        CHECK_THAT(judged(178, effort).sentence, StartsWith("right: equal to the picture of weighted_sum"));
+        CHECK_THAT(judged(179, effort).sentence,
+                   StartsWith("right but for rounding: the picture of weighted_sum; ") &&
+                       EndsWith(" of 4096 pixels have the other of the two codes in whose middle a value lies"));
+        CHECK(judged(179, effort).is_right);
+    }
+    CHECK_THAT(judged(180, Effort::single).sentence, StartsWith("wrong"));
 }
 
 TEST_CASE("the matcher of a scene accepts a right picture and its message has the verdict's sentence") {

@@ -1,6 +1,7 @@
 // tools/oracle/emulations/of_scene.cpp - mistakes in the input of the pipeline: materials, textures, colours, order.
 #include <algorithm>
 #include <memory>
+#include <span>
 
 #include "peeling/frame/prepared_lists.h"
 #include "pipeline/vertices/prepare.h"
@@ -32,7 +33,14 @@ bool changes(std::vector<T>& values, Change change) {
 
 bool is_textured(const AlteredRun& e) { return !e.list->textures.empty(); }
 
-// Gives every triangle three vertices of its own, with the colour and the normal of its last one.
+// Where the vertex of index i stands first in its primitive: the equal indices of a line and of a point remain equal.
+std::uint32_t first_in_primitive(std::span<const std::uint32_t> indices, std::size_t i) {
+    std::size_t first = i - i % 3;
+    while (indices[first] != indices[i]) ++first;
+    return static_cast<std::uint32_t>(first);
+}
+
+// Gives every primitive vertices of its own, with the colour and the normal of its last one.
 void flatten(Mesh& mesh) {
     const Mesh from = mesh;
     mesh.positions.clear();
@@ -47,7 +55,7 @@ void flatten(Mesh& mesh) {
         if (!from.normals.empty()) mesh.normals.push_back(from.normals[last]);
         if (!from.colors.empty()) mesh.colors.push_back(from.colors[last]);
         if (!from.texcoords.empty()) mesh.texcoords.push_back(from.texcoords[vertex]);
-        mesh.indices[i] = static_cast<std::uint32_t>(i);
+        mesh.indices[i] = first_in_primitive(from.indices, i);
     }
 }
 
@@ -134,8 +142,10 @@ bool loses_perspective(AlteredRun& e, Weighting weighting) {
     for (const rasterizer::TriangleRun& run : soup.runs) {
         Mesh mesh;
         mesh.name = given.meshes[given.instances[run.object].mesh].name;
+        mesh.primitive = run.primitive;
+        const std::span<const std::uint32_t> indices{soup.indices.data() + run.first_index, run.index_count};
         for (std::size_t i = 0; i < run.index_count; ++i) {
-            const rasterizer::ClipVertex& v = vertices[soup.indices[run.first_index + i]];
+            const rasterizer::ClipVertex& v = vertices[indices[i]];
             Rgba color = without_material(v, flat.materials[run.material]);
             if (weighting == Weighting::unnormalised)
                 for (std::size_t c = 0; c < 4; ++c) color[c] = std::min(color[c] / v.w, 1.0f);
@@ -143,8 +153,8 @@ bool loses_perspective(AlteredRun& e, Weighting weighting) {
             mesh.colors.push_back(color);
             mesh.texcoords.push_back({v.texcoord[0], v.texcoord[1]});
             // A mirrored instance needs the opposite winding to keep its facing.
-            mesh.indices.push_back(
-                static_cast<std::uint32_t>(run.mirrored && i % 3 != 0 ? i - i % 3 + (3 - i % 3) : i));
+            const bool is_turned = run.mirrored && run.primitive == pipeline::Primitive::triangles && i % 3 != 0;
+            mesh.indices.push_back(first_in_primitive(indices, is_turned ? i - i % 3 + (3 - i % 3) : i));
         }
         flat.instances.push_back({.mesh = static_cast<std::uint32_t>(flat.meshes.size()),
                                   .material = run.material,

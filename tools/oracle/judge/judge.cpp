@@ -18,6 +18,7 @@
 #include "tools/oracle/judge/forgotten.h"
 #include "tools/oracle/judge/layers_verdict.h"
 #include "tools/oracle/judge/picture_diagnosis.h"
+#include "tools/oracle/picture/stored_like.h"
 #include "tools/oracle/program/fit/fitting.h"
 #include "tools/oracle/verdict/equal_picture.h"
 
@@ -87,8 +88,10 @@ class Judge {
         const bool is_right_run = emulated_.kind == Kind::right || emulated_.kind == Kind::other_options;
         if (!layers_) return by_emulation();
         if (!algorithm_.exact) {
-            if (is_right_run || (emulated_.kind == Kind::mistakes && emulated_.is_exact)) return by_emulation();
+            const bool is_run = is_right_run || emulated_.kind == Kind::mistakes;
+            if (is_run && emulated_.is_exact) return by_emulation();
             if (is_decided_by_own_structure()) return;
+            if (is_right_run) return by_emulation();
         }
         if (layers_->is_right()) return layers_->lost_at_ties() > 0 && is_of_one_mistake ? by_emulation() : by_layers();
         if (is_right_run) return by_emulation();
@@ -169,14 +172,30 @@ class Judge {
         }
     }
 
+    [[nodiscard]] bool is_equal_but_for_ties(const Picture& own) {
+        const TargetImage& colors = colors_of(asked_.candidate);
+        const auto at_ties = differing_at_ties(colors_of(own), colors, input_.space);
+        if (!at_ties) return false;
+        found_.state = JudgedState::right;
+        found_.sentence = *at_ties == 0
+                              ? sentence_of({.kind = Kind::right}, algorithm_, colors.pixels())
+                              : fmt::format(
+                                    "right but for rounding: the picture of {}; {} of {} pixels have the other of "
+                                    "the two codes in whose middle a value lies",
+                                    algorithm_.name, *at_ties, colors.pixels());
+        return true;
+    }
+
     // An approximate algorithm has a structure of its own; a port that has it, too, is right. A picture with the exact
     // structure is not that of an algorithm that has another one.
     [[nodiscard]] bool is_decided_by_own_structure() {
+        const Picture own = MistakeRenderer{input_, algorithm_}.right();
+        if (is_equal_but_for_ties(own)) return true;
         const std::vector<std::string> seen = layers_->mistakes(input_.list);
         if (seen.empty() && !layers_->is_right()) return false;
-        const Picture own = emulations_ ? emulations_->right : MistakeRenderer{input_, algorithm_}.right();
-        const LayersVerdict its =
-            judge_layers(input_, {.candidate = own, .has_alpha = asked_.has_alpha, .more = asked_.more});
+        const LayersVerdict its = judge_layers(input_, {.candidate = stored_like(own, asked_.candidate, input_.space),
+                                                        .has_alpha = asked_.has_alpha,
+                                                        .more = asked_.more});
         if (layers_->is_right()) {
             if (its.is_right()) return false;
             found_.sentence =

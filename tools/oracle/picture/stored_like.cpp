@@ -1,6 +1,7 @@
 #include "tools/oracle/picture/stored_like.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "pipeline/formats/unorm8.h"
 #include "rasterizer/base/float_environment.h"
@@ -17,30 +18,66 @@ std::uint32_t stored(Code code, float value, ColorSpace space) {
     return space == ColorSpace::linear ? scenes::encode_srgb8(value) : pipeline::to_unorm8(value);
 }
 
+[[nodiscard]] bool is_converted(const TargetImage& rendered, const TargetImage& file, ColorSpace space) {
+    const bool is_float = rendered.code == Code::half || rendered.code == Code::single;
+    return file.holds_encoded && (space == ColorSpace::linear || is_float) && rendered.meaning == Meaning::color &&
+           rendered.channels == 4;
+}
+
+[[nodiscard]] bool is_divided(const TargetImage& rendered, const TargetImage& file) {
+    const bool has_alpha = file.channels == 2 || file.channels == 4;
+    return has_alpha && file.alpha_form == AlphaForm::straight && rendered.alpha_form == AlphaForm::premultiplied;
+}
+
+// A channel of a pixel, divided by alpha if the file's colours are.
+[[nodiscard]] float value_for(const TargetImage& rendered, const TargetImage& file, std::size_t pixel, int c) {
+    const auto value = static_cast<float>(rendered.value_at(pixel, c));
+    if (c == 3 || !is_divided(rendered, file)) return value;
+    const auto alpha = static_cast<float>(rendered.value_at(pixel, 3));
+    return alpha > 0 ? value / alpha : 0.0f;
+}
+
+// True if the middle between the codes a and b, which are neighbours, is within two ulps of 1.0 of the value.
+[[nodiscard]] bool is_at_tie(std::uint32_t a, std::uint32_t b, double value, Code code) {
+    const double greatest = code == Code::unorm8 ? 255 : 65535;
+    const double middle = (static_cast<double>(a) + static_cast<double>(b)) / 2;
+    return (a + 1 == b || b + 1 == a) && std::fabs(value * greatest - middle) <= greatest * 0x1p-22;
+}
+
 }  // namespace
 
 std::optional<TargetImage> stored_like(const TargetImage& rendered, const TargetImage& file, ColorSpace space) {
-    const bool is_float = rendered.code == Code::half || rendered.code == Code::single;
-    const bool is_same = space == ColorSpace::encoded && !is_float;
-    if (!file.holds_encoded || is_same || rendered.meaning != Meaning::color || rendered.channels != 4)
-        return std::nullopt;
+    if (!is_converted(rendered, file, space)) return std::nullopt;
     const FloatEnvironment environment;
-    const bool has_alpha = file.channels == 2 || file.channels == 4;
-    const bool is_divided =
-        has_alpha && file.alpha_form == AlphaForm::straight && rendered.alpha_form == AlphaForm::premultiplied;
     TargetImage made = rendered;
     made.code = file.code;
-    made.alpha_form = is_divided ? AlphaForm::straight : rendered.alpha_form;
-    for (std::size_t pixel = 0; pixel < made.pixels(); ++pixel) {
-        const auto alpha = static_cast<float>(rendered.value_at(pixel, 3));
-        for (int c = 0; c < 4; ++c) {
-            auto value = static_cast<float>(rendered.value_at(pixel, c));
-            if (is_divided && c < 3) value = alpha > 0 ? value / alpha : 0.0f;
+    made.alpha_form = is_divided(rendered, file) ? AlphaForm::straight : rendered.alpha_form;
+    for (std::size_t pixel = 0; pixel < made.pixels(); ++pixel)
+        for (int c = 0; c < 4; ++c)
             made.codes[pixel * 4 + static_cast<std::size_t>(c)] =
-                stored(file.code, value, c < 3 ? space : ColorSpace::encoded);
-        }
-    }
+                stored(file.code, value_for(rendered, file, pixel, c), c < 3 ? space : ColorSpace::encoded);
     return made;
+}
+
+std::optional<std::size_t> differing_at_ties(const TargetImage& rendered, const TargetImage& file, ColorSpace space) {
+    const std::optional<TargetImage> made = stored_like(rendered, file, space);
+    if (!made || file.is_grey || (file.code != Code::unorm8 && file.code != Code::unorm16)) return std::nullopt;
+    const FloatEnvironment environment;
+    std::size_t pixels = 0;
+    for (std::size_t pixel = 0; pixel < made->pixels(); ++pixel) {
+        bool differs = false;
+        for (int c = 0; c < file.channels; ++c) {
+            const std::uint32_t own = made->at(pixel, c).word, seen = file.at(pixel, c).word;
+            if (own == seen) continue;
+            const float value = value_for(rendered, file, pixel, c);
+            const bool is_encoded = c < 3 && space == ColorSpace::linear;
+            if (!is_at_tie(own, seen, double{is_encoded ? scenes::encode_srgb(value) : value}, file.code))
+                return std::nullopt;
+            differs = true;
+        }
+        pixels += differs ? 1 : 0;
+    }
+    return pixels;
 }
 
 Picture stored_like(Picture rendered, const Picture& candidate, ColorSpace space) {

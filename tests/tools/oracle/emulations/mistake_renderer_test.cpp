@@ -114,6 +114,20 @@ TEST_CASE("a mistake that a scene cannot have makes no picture") {
     CHECK_FALSE(random.mistake_renderer.with(*find_mistake("one_pass_too_many")));
 }
 
+TEST_CASE("every mistake can be tried in a scene of lines and of points") {
+    for (const char* scene : {"hair:strands=20", "splats:points=40"})
+        for (const char* algorithm : {"dual", "weighted_blended", "a_buffer"}) {
+            const OpenScene opened = open({.scene = scene, .algorithm = algorithm, .profile = "ideal"});
+            const MistakeRenderer renderer{opened.input(), *opened.algorithm};
+            std::size_t made = 0;
+            for (const Mistake& mistake : catalogue()) {
+                INFO(scene << " " << algorithm << " " << mistake.name);
+                CHECK_NOTHROW(made += renderer.with(mistake).has_value() ? 1 : 0);
+            }
+            CHECK(made > 10);
+        }
+}
+
 TEST_CASE("of two mistakes both are made and that of the finished picture is made last") {
     const SceneFixture bench{"showroom.dual"};
     const Picture both = bench.with("premultiplied_twice", "flipped_rows");

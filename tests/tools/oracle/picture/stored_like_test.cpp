@@ -52,6 +52,27 @@ TEST_CASE("a rendered target stored like a PNG has the codes that the writer of 
         }
 }
 
+// 255 times 0.7 in binary32 is 178.499997: codes 178 and 179 are right, and no others.
+TEST_CASE("a value in the middle between two codes has either one and no other value has") {
+    using pipeline::ColorSpace;
+    TargetImage rendered{.name = "color", .code = Code::single, .width = 2, .height = 1, .channels = 4};
+    for (const float value : {0.7f, 0.7f, 0.7f, 1.0f, 0.25f, 0.25f, 0.25f, 1.0f})
+        rendered.codes.push_back(std::bit_cast<std::uint32_t>(value));
+    TargetImage file{.name = "color", .width = 2, .height = 1, .channels = 3, .holds_encoded = true};
+    const auto differing = [&](std::vector<std::uint32_t> codes) {
+        file.codes = std::move(codes);
+        return differing_at_ties(rendered, file, ColorSpace::encoded);
+    };
+    CHECK(differing({178, 178, 178, 64, 64, 64}) == 0u);
+    CHECK(differing({178, 179, 178, 64, 64, 64}) == 1u);
+    CHECK(differing({179, 179, 179, 64, 64, 64}) == 1u);
+    CHECK_FALSE(differing({177, 178, 178, 64, 64, 64}));
+    CHECK_FALSE(differing({180, 178, 178, 64, 64, 64}));
+    CHECK_FALSE(differing({178, 178, 178, 63, 64, 64}));
+    CHECK_FALSE(differing({178, 178, 178, 64, 64, 65}));
+    CHECK_FALSE(differing_at_ties(rendered, rendered, ColorSpace::encoded));
+}
+
 TEST_CASE("targets compared with an EXR or with plain numbers are left as they were rendered") {
     const pipeline::Image image = random_colors(pipeline::Format::rgba16f);
     TargetImage rendered = as_target(image, "color");
