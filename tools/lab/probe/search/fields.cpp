@@ -184,7 +184,8 @@ const std::vector<FieldGroup>& field_groups() {
         {"coverage",
          Part::coverage,
          {"coverage."},
-         {"raster.coverage", "raster.subpixel_bits", "raster.snap", "raster.tie_rule"},
+         // A position that is truncated depends on the direction of y.
+         {"raster.coverage", "raster.subpixel_bits", "raster.snap", "raster.tie_rule", "raster.y_axis"},
          {"raster.area_sign"}},
         {"positions", Part::coverage, {"positions.edges"}, {"raster.w_divide", "raster.viewport", "raster.y_axis"}},
         {"depth",
