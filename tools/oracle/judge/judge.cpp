@@ -19,7 +19,7 @@
 #include "tools/oracle/judge/layers_verdict.h"
 #include "tools/oracle/judge/picture_diagnosis.h"
 #include "tools/oracle/picture/stored_like.h"
-#include "tools/oracle/program/fit/fitting.h"
+#include "tools/oracle/program/drawing/fit_drawings.h"
 #include "tools/oracle/verdict/equal_picture.h"
 
 namespace strata::oracle {
@@ -103,18 +103,22 @@ class Judge {
         if (is_of_one_mistake) return by_emulation();
         const bool is_open = !is_right_in_another_view() && !layers_->is_undecided();
         if (is_open && emulated_.kind == Kind::mistakes) return by_emulation();
-        if (is_open && effort_ == Effort::all && is_fitted()) return;
+        if (is_open && is_fitted()) return;
         by_layers();
         if (fitting_) add_fitted_leads();
     }
 
-    // True if a program of few words gives the picture. Scenes of many fragments are not fitted.
+    // True if a program of few words gives the picture, or another way to draw the scene. Scenes of many fragments are
+    // not fitted.
     [[nodiscard]] bool is_fitted() {
-        constexpr std::uint64_t most_fragments = 1'000'000;
+        const std::uint64_t most_fragments = effort_ == Effort::all ? 1'000'000 : 250'000;
         if (!layers_->single || !algorithm_.exact) return false;
         const verdict::SceneFragments& fragments = *layers_->single->fragments;
         if (!fragments.keeps() || fragments.count() > most_fragments) return false;
-        fitting_ = fit(program::lists_of(fragments, layers_->colors()));
+        const verdict::Colors colors = layers_->colors();
+        const program::Lists all = program::lists_of(fragments, colors, true);
+        fitting_ = fit_drawings(all, program::other_drawings(input_, all, colors));
+        if (fitting_->state != program::Fitting::State::explained) fitting_ = fit(program::lists_of(fragments, colors));
         if (fitting_->state != program::Fitting::State::explained) return false;
         found_.state = JudgedState::explained;
         for (const program::Proof& proof : fitting_->found) found_.mistakes.push_back(describe(proof.program));

@@ -21,19 +21,7 @@ void add(Lists& lists, const verdict::PixelList& list, const std::array<double, 
                             .behind = colors_of(list.behind),
                             .has_opaque = list.has_opaque,
                             .seen = {seen[0], seen[1], seen[2]}});
-    for (const verdict::Fragment& f : list.visible) {
-        const auto before = std::ranges::count_if(
-            list.visible, [&](const verdict::Fragment& other) { return other.primitive < f.primitive; });
-        lists.fragments.push_back({.color = colors_of(f.color),
-                                   .alpha = std::clamp(double{f.color[3]}, 0.0, 1.0),
-                                   .depth = double{f.shader_z},
-                                   .code = f.code,
-                                   .submission = static_cast<std::uint32_t>(before),
-                                   .primitive = f.primitive,
-                                   .instance = f.instance,
-                                   .material = f.material,
-                                   .is_front_facing = f.is_front_facing});
-    }
+    for (const verdict::Fragment& f : list.visible) lists.fragments.push_back(list_fragment(f, list.visible));
 }
 
 Color composite_of(std::span<const verdict::Fragment> visible, const Rgba& behind) {
@@ -144,6 +132,20 @@ void settle_background(Lists& lists) {
 
 }  // namespace
 
+ListFragment list_fragment(const verdict::Fragment& f, std::span<const verdict::Fragment> of) {
+    const auto before =
+        std::ranges::count_if(of, [&](const verdict::Fragment& other) { return other.primitive < f.primitive; });
+    return {.color = colors_of(f.color),
+            .alpha = std::clamp(double{f.color[3]}, 0.0, 1.0),
+            .depth = double{f.shader_z},
+            .code = f.code,
+            .submission = static_cast<std::uint32_t>(before),
+            .primitive = f.primitive,
+            .instance = f.instance,
+            .material = f.material,
+            .is_front_facing = f.is_front_facing};
+}
+
 void complete(Lists& lists) {
     for (std::size_t i = 0; i < lists.pixels.size(); ++i) {
         const std::size_t first = lists.pixels[i].first;
@@ -155,7 +157,7 @@ void complete(Lists& lists) {
     for (ListPixel& pixel : lists.pixels) find_ties(pixel);
 }
 
-Lists lists_of(const verdict::SceneFragments& scene, const verdict::Colors& candidate) {
+Lists lists_of(const verdict::SceneFragments& scene, const verdict::Colors& candidate, bool has_all_pixels) {
     Lists lists;
     lists.width = candidate.width();
     lists.height = candidate.height();
@@ -163,7 +165,7 @@ Lists lists_of(const verdict::SceneFragments& scene, const verdict::Colors& cand
         for (int x = 0; x < scene.width(); ++x) {
             const verdict::PixelList list = scene.list_at(x, row);
             const std::array<double, 4> seen = candidate.at(list.x, list.y);
-            if (!is_covered_otherwise(list, seen)) add(lists, list, seen);
+            if (has_all_pixels || !is_covered_otherwise(list, seen)) add(lists, list, seen);
         }
     std::vector<double> seen;
     for (const ListPixel& pixel : lists.pixels) seen.insert(seen.end(), pixel.seen.begin(), pixel.seen.end());

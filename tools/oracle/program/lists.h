@@ -20,6 +20,7 @@
 namespace strata::oracle::verdict {
 class SceneFragments;
 class Colors;
+struct Fragment;
 }  // namespace strata::oracle::verdict
 
 namespace strata::oracle::program {
@@ -67,7 +68,11 @@ struct Lists {
 };
 
 // The lists of a scene whose fragments are kept; with the other coverage of its edges, if that was found.
-[[nodiscard]] Lists lists_of(const verdict::SceneFragments& scene, const verdict::Colors& candidate);
+// `has_all_pixels`: also of pixels that only another coverage explains.
+[[nodiscard]] Lists lists_of(const verdict::SceneFragments& scene, const verdict::Colors& candidate,
+                             bool has_all_pixels = false);
+// A fragment among those of its pixel.
+[[nodiscard]] ListFragment list_fragment(const verdict::Fragment& fragment, std::span<const verdict::Fragment> of);
 
 // Sets the spans of the pixels, whose `first` are known, the triangles' depths, and the lists with equal codes
 // reversed.

@@ -139,7 +139,7 @@ double price(const Edit& edit) {
 }
 
 double price(const Program& program) {
-    double bits = 0;
+    double bits = program.drawing_price;
     for (const Edit& edit : program.edits) bits += price(edit);
     return bits;
 }

@@ -64,6 +64,8 @@ struct Edit {
 
 struct Program {
     std::vector<Edit> edits{};
+    std::string drawing{};     // in words, how the lists that it runs on are drawn; empty: rightly
+    double drawing_price = 0;  // of these words
     friend bool operator==(const Program&, const Program&) = default;
 };
 

@@ -55,7 +55,7 @@ std::vector<Proof> alike(const Lists& lists, std::vector<Proof> proofs) {
         const bool is_told =
             std::ranges::any_of(told, [&](const Proof& p) { return says_the_same(p.program, proof.program); });
         if (is_told || told.size() >= most_told) continue;
-        proof.is_equal = told.empty() || predict_alike(lists, told[0].program, proof.program);
+        proof.is_equal = told.empty() || predict_alike({lists, told[0].program}, {lists, proof.program});
         told.push_back(std::move(proof));
     }
     return told;

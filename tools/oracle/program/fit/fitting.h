@@ -27,6 +27,8 @@ struct Fitting {
 
 [[nodiscard]] Fitting fit(const Lists& lists);
 
+// "of back faces and with depth at least 0.7"
+[[nodiscard]] std::string joined_words(std::span<const Condition> conditions);
 // "all fragments of back faces have alpha times 0.5"
 [[nodiscard]] std::string describe(const Program& program);
 // One sentence about the picture, and a line for each further explanation.

@@ -15,14 +15,16 @@ struct Moved {
     double repaired = 0, broken = 0;
 };
 
-Moved moved(const Lists& lists, const Program& program, const Fitness& fitness, const Fitness& right) {
+Moved moved(const Lists& lists, const Program& program, const Fitness& fitness, const Lists& given,
+            const Fitness& right) {
     double wrong = 0, repaired = 0, good = 0, broken = 0;
     const auto is_beyond = [&](const Program& p, const PortRounding& r, const ListPixel& pixel) {
         const Color off = residual_of(p, pixel, r, lists.unit()).off;
         return std::ranges::any_of(off, [&](double v) { return std::fabs(v) > bound_at(pixel); });
     };
-    for (const ListPixel& pixel : lists.pixels) {
-        const bool was_wrong = is_beyond({}, right.rounding, pixel),
+    for (std::size_t i = 0; i < lists.pixels.size(); ++i) {
+        const ListPixel& pixel = lists.pixels[i];
+        const bool was_wrong = is_beyond({}, right.rounding, given.pixels[i]),
                    is_wrong = is_beyond(program, fitness.rounding, pixel);
         (was_wrong ? wrong : good) += 1;
         if (was_wrong && !is_wrong) repaired += 1;
@@ -33,7 +35,7 @@ Moved moved(const Lists& lists, const Program& program, const Fitness& fitness, 
 
 }  // namespace
 
-Proof prove(const Lists& lists, const Program& program, const Fitness& right) {
+Proof prove(const Lists& lists, const Program& program, const Fitness& right, const Lists* given) {
     Proof proof{.program = program, .fitness = best_fitness(lists, program)};
     const Fitness& f = proof.fitness;
     proof.cost = f.bits + price(program);
@@ -49,7 +51,7 @@ Proof prove(const Lists& lists, const Program& program, const Fitness& right) {
         proof.is_part = true;
     }
     if (!proof.is_whole && proof.cost < 0.55 * right.bits) {
-        const Moved m = moved(lists, program, f, right);
+        const Moved m = moved(lists, program, f, given != nullptr ? *given : lists, right);
         proof.is_part = m.repaired > 0.6 && m.broken < 0.1;
     }
     return proof;
@@ -106,17 +108,17 @@ std::vector<Program> equal_programs(const FitSample& sample, const Program& prog
     return all;
 }
 
-bool predict_alike(const Lists& lists, const Program& a, const Program& b) {
+bool predict_alike(const ProgramOn& a, const ProgramOn& b) {
     std::size_t different = 0;
-    for (const ListPixel& pixel : lists.pixels) {
-        const Color of_a = value(a, pixel, {}), of_b = value(b, pixel, {});
+    for (std::size_t i = 0; i < a.lists.pixels.size(); ++i) {
+        const Color of_a = value(a.program, a.lists.pixels[i], {}), of_b = value(b.program, b.lists.pixels[i], {});
         for (std::size_t c = 0; c < 3; ++c)
-            if (std::fabs(of_a[c] - of_b[c]) > lists.unit()) {
+            if (std::fabs(of_a[c] - of_b[c]) > a.lists.unit()) {
                 ++different;
                 break;
             }
     }
-    return different <= std::max<std::size_t>(2, lists.pixels.size() / 1000);
+    return different <= std::max<std::size_t>(2, a.lists.pixels.size() / 1000);
 }
 
 namespace {

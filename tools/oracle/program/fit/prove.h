@@ -24,12 +24,19 @@ struct Proof {
     }
 };
 
-[[nodiscard]] Proof prove(const Lists& lists, const Program& program, const Fitness& right);
+// `given`: the lists of the right program, of the same pixels, if they are others.
+[[nodiscard]] Proof prove(const Lists& lists, const Program& program, const Fitness& right,
+                          const Lists* given = nullptr);
 // Moves the thresholds of a program's last edit to where the whole picture costs least.
 void place_thresholds(const Lists& lists, const FitSample& sample, Program& program, const PortRounding& rounding);
 // Programs whose last edit has another property in a condition, which selects the same fragments of the sample.
 [[nodiscard]] std::vector<Program> equal_programs(const FitSample& sample, const Program& program);
-// True if both predict the same picture, to a code of the candidate.
-[[nodiscard]] bool predict_alike(const Lists& lists, const Program& a, const Program& b);
+// A program with the lists on which it runs.
+struct ProgramOn {
+    const Lists& lists;
+    const Program& program;
+};
+// True if both predict the same picture, to a code of the candidate. Their lists have the same pixels.
+[[nodiscard]] bool predict_alike(const ProgramOn& a, const ProgramOn& b);
 
 }  // namespace strata::oracle::program

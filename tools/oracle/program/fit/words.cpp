@@ -19,11 +19,21 @@ std::string words_of(const Condition& condition) {
     return fmt::format("with {} {}{:.6g}", property.name, relation, condition.threshold);
 }
 
-std::string joined(const Edit& edit, bool is_of_pixel) {
+}  // namespace
+
+std::string joined_words(std::span<const Condition> conditions) {
     std::string all;
-    for (const Condition& condition : edit.conditions)
-        if (condition.property->is_of_pixel == is_of_pixel) all += (all.empty() ? " " : " and ") + words_of(condition);
+    for (const Condition& condition : conditions)
+        all += fmt::format("{}{}", all.empty() ? "" : " and ", words_of(condition));
     return all;
+}
+
+namespace {
+
+std::string joined(const Edit& edit, bool is_of_pixel) {
+    std::vector<Condition> some = edit.conditions;
+    std::erase_if(some, [&](const Condition& c) { return c.property->is_of_pixel != is_of_pixel; });
+    return some.empty() ? std::string{} : fmt::format(" {}", joined_words(some));
 }
 
 std::string done(const Edit& edit) {
@@ -42,7 +52,7 @@ std::string describe(const Edit& edit) {
 }  // namespace
 
 std::string describe(const Program& program) {
-    std::string all;
+    std::string all = program.drawing;
     for (const Edit& edit : program.edits) all += (all.empty() ? "" : "; and ") + describe(edit);
     return all.empty() ? "right" : all;
 }

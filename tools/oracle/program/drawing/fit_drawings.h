@@ -1,0 +1,20 @@
+// tools/oracle/program/drawing/fit_drawings.h - is a picture that of the scene drawn in another way: with another
+// opaque pass, or on another grid of positions?
+//
+// Rule     The right program runs on the lists of each other drawing, and is proved as any program is (prove.h), on all
+//          pixels, those at edges too. Where that explains a part only, one more edit is searched on the best lists.
+// Tests    tests/tools/oracle/program/drawing_test.cpp
+#pragma once
+#include "tools/oracle/program/drawing/opaque_pass.h"
+#include "tools/oracle/program/fit/fitting.h"
+
+namespace strata::oracle::program {
+
+// `given`: the lists of the right drawing, of all pixels.
+[[nodiscard]] Fitting fit_drawings(const Lists& given, const std::vector<OtherLists>& others);
+
+// The lists of a scene in all ways of drawing that are known.
+[[nodiscard]] std::vector<OtherLists> other_drawings(const peeling::FrameRequest& input, const Lists& given,
+                                                     const verdict::Colors& candidate);
+
+}  // namespace strata::oracle::program
