@@ -20,6 +20,7 @@
 #include "tools/oracle/judge/picture_diagnosis.h"
 #include "tools/oracle/picture/stored_like.h"
 #include "tools/oracle/program/drawing/fit_drawings.h"
+#include "tools/oracle/program/screen/screen.h"
 #include "tools/oracle/verdict/equal_picture.h"
 
 namespace strata::oracle {
@@ -118,10 +119,14 @@ class Judge {
         const verdict::Colors colors = layers_->colors();
         const program::Lists all = program::lists_of(fragments, colors, true);
         fitting_ = fit_drawings(all, program::other_drawings(input_, all, colors));
-        if (fitting_->state != program::Fitting::State::explained) fitting_ = fit(program::lists_of(fragments, colors));
-        if (fitting_->state != program::Fitting::State::explained) return false;
+        const bool is_drawn_otherwise = fitting_->state == program::Fitting::State::explained;
+        if (!is_drawn_otherwise) screen_ = explain_by_screen(all, fitting_->right);
+        if (!is_drawn_otherwise && screen_.empty()) fitting_ = fit(program::lists_of(fragments, colors));
+        if (screen_.empty() && fitting_->state != program::Fitting::State::explained) return false;
         found_.state = JudgedState::explained;
-        for (const program::Proof& proof : fitting_->found) found_.mistakes.push_back(describe(proof.program));
+        for (const program::ScreenMap& map : screen_) found_.mistakes.push_back(map.words);
+        if (screen_.empty())
+            for (const program::Proof& proof : fitting_->found) found_.mistakes.push_back(describe(proof.program));
         found_.sentence = "wrong: " + found_.mistakes[0];
         return true;
     }
@@ -268,7 +273,12 @@ class Judge {
         std::string& text = found_.text;
         text = found_.sentence + '\n';
         for (const std::string& sentence : found_.forgotten) text += "  " + sentence + '\n';
-        if (is_named_by_fitting()) text += divided(to_text(*fitting_)).second;
+        for (std::size_t i = 0; i < screen_.size(); ++i) {
+            if (i > 0) text += "  or: " + screen_[i].words + '\n';
+            text += fmt::format("    {} of {} pixels are wrong then\n", screen_[i].beyond,
+                                asked_.candidate.targets[0].pixels());
+        }
+        if (is_named_by_fitting() && screen_.empty()) text += divided(to_text(*fitting_)).second;
         if (layers_ && !is_by_emulation_ && !is_named_by_fitting() && layers_->is_right() == found_.is_right)
             text += lines_of_layers;
         if (!emulations_) {
@@ -286,8 +296,8 @@ class Judge {
     }
 
     [[nodiscard]] bool is_named_by_fitting() const {
-        return fitting_ && fitting_->state == program::Fitting::State::explained &&
-               found_.state == JudgedState::explained;
+        return fitting_ && found_.state == JudgedState::explained &&
+               (!screen_.empty() || fitting_->state == program::Fitting::State::explained);
     }
 
     void write_json() {
@@ -313,6 +323,7 @@ class Judge {
     std::optional<PictureDiagnosis> emulations_{};
     Emulated emulated_{};
     std::optional<program::Fitting> fitting_{};
+    std::vector<program::ScreenMap> screen_{};  // what explains the picture, if any does
     bool is_by_emulation_ = false, makes_right_ = false;
     Judgement found_{};
 };

@@ -11,7 +11,8 @@ namespace {
 
 using Vector = std::vector<double>;
 
-// Solves a x = b for a symmetric matrix without negative eigenvalues, by elimination.
+}  // namespace
+
 Vector solved(std::vector<Vector> a, Vector b) {
     const std::size_t n = b.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -28,6 +29,8 @@ Vector solved(std::vector<Vector> a, Vector b) {
     }
     return b;
 }
+
+namespace {
 
 class GaussNewton {
   public:

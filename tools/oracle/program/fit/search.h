@@ -64,6 +64,8 @@ void exchange_conditions(const Scorer& scorer, Trial& trial);
 void fit_parameter(const Scorer& scorer, Trial& trial);
 // Fits all parameters of an edit by damped Gauss-Newton with weights 1 / (1 + (r / 3)^2), and rounds them.
 void fit_parameters(const Scorer& scorer, Trial& trial);
+// Solves a x = b for a symmetric matrix without negative eigenvalues, by elimination.
+[[nodiscard]] std::vector<double> solved(std::vector<std::vector<double>> a, std::vector<double> b);
 // The number with the fewest digits between two numbers.
 [[nodiscard]] double shortest_between(double low, double high);
 

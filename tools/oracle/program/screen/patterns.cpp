@@ -1,0 +1,169 @@
+// tools/oracle/program/screen/patterns.cpp - patterns of pixels: codes with a dither, and one layer a pixel (screen.h).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "tools/oracle/program/screen/screen.h"
+
+namespace strata::oracle::program {
+
+namespace {
+
+// For each place of a period its threshold: codes are floor(v + threshold).
+std::optional<std::vector<double>> thresholds_of(const ScreenPictures& p, int period, double codes) {
+    const auto classes = static_cast<std::size_t>(period * period);
+    std::vector<std::vector<double>> least(classes), most(classes);
+    for (const ListPixel& pixel : p.lists.pixels) {
+        const Color& predicted = p.at(pixel.x, pixel.y);
+        const auto at = static_cast<std::size_t>(pixel.y % period * period + pixel.x % period);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double code = std::nearbyint(pixel.seen[c] * codes), v = predicted[c] * codes;
+            least[at].push_back(code - v);     // threshold is at least this
+            most[at].push_back(code + 1 - v);  // and below this
+        }
+    }
+    std::vector<double> found;
+    for (std::size_t i = 0; i < classes; ++i) {
+        if (least[i].size() < 12) return std::nullopt;
+        std::ranges::sort(least[i]);
+        std::ranges::sort(most[i]);
+        const std::size_t few = least[i].size() / 100;  // roundings of blends move some
+        const double low = least[i][least[i].size() - 1 - few], high = most[i][few];
+        if (low > high + 0.25) return std::nullopt;
+        found.push_back((low + high) / 2);
+    }
+    return found;
+}
+
+struct Dither {
+    int period = 0;
+    double codes = 0;
+    std::vector<double> thresholds{};
+    std::size_t misses = 0;  // values that another code is seen for
+
+    [[nodiscard]] double code_of(const ListPixel& pixel, double v) const {
+        return v * codes + thresholds[static_cast<std::size_t>(pixel.y % period * period + pixel.x % period)];
+    }
+    void count_misses(const ScreenPictures& p) {
+        for (const ListPixel& pixel : p.lists.pixels)
+            for (std::size_t c = 0; c < 3; ++c)
+                misses += std::floor(code_of(pixel, p.at(pixel.x, pixel.y)[c])) != std::nearbyint(pixel.seen[c] * codes)
+                              ? 1
+                              : 0;
+    }
+    // Near a threshold the roundings of blends decide.
+    [[nodiscard]] std::vector<Color> mapped(const ScreenPictures& p) const {
+        std::vector<Color> made;
+        for (const ListPixel& pixel : p.lists.pixels) {
+            Color& color = made.emplace_back(p.at(pixel.x, pixel.y));
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double at = code_of(pixel, color[c]), seen = std::nearbyint(pixel.seen[c] * codes);
+                const double code = std::floor(at);
+                const bool is_near = std::fabs(at - std::max(seen, code)) < 2 * codes * p.lists.unit();
+                color[c] = (is_near ? seen : code) / codes;
+            }
+        }
+        return made;
+    }
+};
+
+}  // namespace
+
+void add_dithers(const ScreenPictures& p, ScreenProofs& proofs) {
+    std::set<double> values;
+    for (const ListPixel& pixel : p.lists.pixels) values.insert(pixel.seen.begin(), pixel.seen.end());
+    for (int bits = 1; bits <= 7; ++bits) {
+        const double codes = std::exp2(bits) - 1;
+        const bool are_codes = std::ranges::all_of(values, [&](double v) {
+            return std::fabs(v * codes - std::nearbyint(v * codes)) < 0.6 * codes * p.lists.unit();
+        });
+        if (!are_codes) continue;
+        std::optional<Dither> best;
+        for (const int period : {2, 4, 8}) {
+            auto thresholds = thresholds_of(p, period, codes);
+            if (!thresholds) continue;
+            const auto [low, high] = std::minmax_element(thresholds->begin(), thresholds->end());
+            if (*high - *low < 0.2) continue;  // the same everywhere: rounded
+            Dither dither{period, codes, *std::move(thresholds)};
+            dither.count_misses(p);
+            if (!best || 10 * dither.misses + 30 < 9 * best->misses) best = std::move(dither);
+        }
+        if (best)
+            proofs.add(fmt::format("the picture is rounded to {} bits with a dither of {} x {} pixels", bits,
+                                   best->period, best->period),
+                       12, best->mapped(p), std::vector<char>(p.predicted.size(), 1));
+        return;
+    }
+}
+
+namespace {
+
+// The layer that a pixel shows: its rank; the number of layers if it shows what is behind; none if several could be,
+// -1 if nothing is.
+struct ShownLayer {
+    int rank = -1;
+    bool is_certain = false;
+};
+
+ShownLayer shown_layer(const ListPixel& pixel, double unit) {
+    ShownLayer shown;
+    int matches = 0;
+    const auto is_seen = [&](const Color& color) {
+        return std::ranges::equal(color, pixel.seen, [&](double a, double b) { return std::fabs(a - b) < 1.6 * unit; });
+    };
+    const auto count = static_cast<int>(pixel.fragments.size());
+    for (int k = 0; k <= count; ++k)
+        if (is_seen(k < count ? pixel.fragments[static_cast<std::size_t>(k)].color : pixel.behind)) {
+            if (matches++ == 0) shown.rank = k;
+        }
+    shown.is_certain = matches == 1;
+    return shown;
+}
+
+// True if one threshold for each place of the period says which layer is shown: the first whose alpha is beyond it.
+bool is_by_pattern(const Lists& lists, const std::vector<ShownLayer>& shown, int period) {
+    struct Range {
+        double low = 0, high = 1;
+        std::size_t count = 0;
+    };
+    std::vector<Range> ranges(static_cast<std::size_t>(period * period));
+    for (std::size_t i = 0; i < lists.pixels.size(); ++i) {
+        if (!shown[i].is_certain) continue;
+        const ListPixel& pixel = lists.pixels[i];
+        Range& range = ranges[static_cast<std::size_t>(pixel.y % period * period + pixel.x % period)];
+        ++range.count;
+        const auto rank = static_cast<std::size_t>(shown[i].rank);
+        for (std::size_t k = 0; k < rank; ++k) range.low = std::max(range.low, pixel.fragments[k].alpha);
+        if (rank < pixel.fragments.size()) range.high = std::min(range.high, pixel.fragments[rank].alpha);
+    }
+    return std::ranges::all_of(ranges, [](const Range& r) { return r.count > 1 && r.low <= r.high + 1e-9; });
+}
+
+}  // namespace
+
+void add_chosen_layers(const ScreenPictures& p, std::vector<ScreenMap>& found) {
+    std::vector<ShownLayer> shown;
+    std::size_t covered = 0, none = 0, behind = 0;
+    for (const ListPixel& pixel : p.lists.pixels) {
+        ShownLayer& layer = shown.emplace_back();
+        if (pixel.fragments.empty()) continue;
+        layer = shown_layer(pixel, p.lists.unit());
+        ++covered;
+        none += layer.rank < 0 ? 1 : 0;
+        behind += layer.is_certain && layer.rank > 0 ? 1 : 0;
+    }
+    if (covered < 50 || none > std::max<std::size_t>(2, covered / 500) || 20 * behind < covered) return;
+    std::string words = "every pixel shows one layer or what is behind: fragments are kept or dropped, not blended";
+    int known = 0;
+    for (const int period : {2, 4, 8, 16})
+        if (known == 0 && is_by_pattern(p.lists, shown, period)) known = period;
+    words += known > 0
+                 ? fmt::format(", by a pattern that repeats every {} x {} pixels and serves all layers", known, known)
+                 : ", by no pattern of at most 16 x 16 pixels";
+    found.push_back({.words = std::move(words), .price = 8, .bits = 0, .beyond = none});
+}
+
+}  // namespace strata::oracle::program
