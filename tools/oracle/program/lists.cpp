@@ -20,6 +20,7 @@ void add(Lists& lists, const verdict::PixelList& list, const std::array<double, 
                             .first = lists.fragments.size(),
                             .behind = colors_of(list.behind),
                             .has_opaque = list.has_opaque,
+                            .opaque_code = list.opaque,
                             .seen = {seen[0], seen[1], seen[2]}});
     for (const verdict::Fragment& f : list.visible) lists.fragments.push_back(list_fragment(f, list.visible));
 }

@@ -48,7 +48,8 @@ struct ListPixel {
     std::vector<std::vector<ListFragment>> ties{};
     Color behind{};  // the opaque surface, or the background
     bool has_opaque = false;
-    Color seen{};  // the candidate's
+    std::uint32_t opaque_code = 0;  // its stored depth
+    Color seen{};                   // the candidate's
 };
 
 // Row by row from the top. Pixels refer to `fragments`, so that lists move and are not copied.

@@ -47,6 +47,9 @@ struct StepEntry {
     std::span<const double> parameters{};  // candidates of the parameter; empty: none
     // Of entries with several fitted parameters: where they begin, for depths in this range.
     std::vector<double> (*start)(double nearest, double farthest) = nullptr;
+    // A fit of several parameters that explains narrowly is told if these look like a cause; null: only if all are
+    // round.
+    bool (*is_plausible)(Parameters parameters) = nullptr;
     bool is_continuous = false;  // the parameter is fitted
     bool is_order = false;       // acts on the selected fragments together
     void (*edit)(PortLayers& layers, const SelectedFragments& selection, Parameters parameters) = nullptr;

@@ -96,6 +96,11 @@ const FragmentProperty table[] = {
      .of = [](const ListPixel& p, std::size_t k) { return layers(p, k) - 1 - at(p, k).submission; }},
     {.name = "distance in depth behind the one before", .of = gap_before},
     {.name = "distance in depth to the next one behind", .of = gap_behind},
+    {.name = "depth codes before the opaque surface",
+     .of =
+         [](const ListPixel& p, std::size_t k) {
+             return p.has_opaque ? static_cast<double>(p.opaque_code) - static_cast<double>(at(p, k).code) : none;
+         }},
     {.name = "number of bits of depth shared with the one before", .kind = Kind::integer, .price = 6, .of = equal_bits},
     {.name = "ones at the depth of the one before",
      .no = "ones not at the depth of the one before",

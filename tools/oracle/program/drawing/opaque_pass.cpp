@@ -156,6 +156,7 @@ Lists lists_by(const OpaquePass& pass, const SceneSurfaces& surfaces, std::size_
                                .first = made.fragments.size(),
                                .behind = found.kept != nullptr ? found.kept->color : surfaces.background,
                                .has_opaque = found.kept != nullptr,
+                               .opaque_code = found.kept != nullptr ? found.kept->code : 0,
                                .seen = pixel.seen});
         add_layers(pass, found, surfaces.layers[i], made.fragments);
     }

@@ -43,8 +43,11 @@ Proof prove(const Lists& lists, const Program& program, const Fitness& right, co
     proof.is_whole = static_cast<double>(f.beyond) <= most && f.mean < 1 && f.slope < 0.35 &&
                      f.bits_per_covered() < 1.5 && proof.cost < 0.6 * right.bits;
     // A free fit of several parameters comes near to anything: it explains only by round numbers.
-    const bool is_loose = std::ranges::any_of(program.edits, [](const Edit& edit) {
-        return edit.entry->start != nullptr && !std::ranges::all_of(edit.parameters, is_round);
+    const bool is_loose = std::ranges::any_of(program.edits, [&](const Edit& edit) {
+        if (edit.entry->start == nullptr) return false;
+        if (edit.entry->is_plausible != nullptr)
+            return !(edit.entry->is_plausible(edit.parameters) && is_narrow(f) && f.bits_per_covered() < 1);
+        return !std::ranges::all_of(edit.parameters, is_round);
     });
     if (proof.is_whole && is_loose) {
         proof.is_whole = false;

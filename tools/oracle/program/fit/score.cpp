@@ -30,7 +30,8 @@ double bits_of(const Color& r) noexcept {
 TiedResidual residual_of(const Program& program, const ListPixel& pixel, const PortRounding& rounding, double unit) {
     TiedResidual best{residual(value(program, pixel, rounding), pixel, unit)};
     if (pixel.ties.empty()) return best;
-    ListPixel other{pixel.x, pixel.y, pixel.first, {}, {}, pixel.behind, pixel.has_opaque, pixel.seen};
+    ListPixel other{pixel.x,      pixel.y,          pixel.first,       {},        {},
+                    pixel.behind, pixel.has_opaque, pixel.opaque_code, pixel.seen};
     double cost = bits_of(best.off);
     for (std::size_t i = 0; i < pixel.ties.size(); ++i) {
         other.fragments = pixel.ties[i];

@@ -70,32 +70,47 @@ struct Dither {
     }
 };
 
+bool are_codes(const std::set<double>& values, double codes, double unit) {
+    return std::ranges::all_of(
+        values, [&](double v) { return std::fabs(v * codes - std::nearbyint(v * codes)) < 0.6 * codes * unit; });
+}
+
+// The period with the fewest values that it does not give; a longer one must earn its thresholds.
+void add_codes(const ScreenPictures& p, double codes, const std::string& kept, ScreenProofs& proofs) {
+    std::optional<Dither> best;
+    for (const int period : {1, 2, 4, 8}) {
+        auto thresholds = thresholds_of(p, period, codes);
+        if (!thresholds) continue;
+        Dither dither{period, codes, *std::move(thresholds)};
+        dither.count_misses(p);
+        if (!best || 2 * dither.misses + 10 * static_cast<std::size_t>(period * period) < best->misses)
+            best = std::move(dither);
+    }
+    if (!best) return;
+    const std::string words =
+        best->period > 1
+            ? fmt::format("the picture is rounded to {} with a dither of {} x {} pixels", kept, best->period,
+                          best->period)
+            : fmt::format("the picture is {} to {}", best->thresholds[0] < 0.25 ? "truncated" : "rounded", kept);
+    proofs.add(words, best->period > 1 ? 12 : 6, best->mapped(p), std::vector<char>(p.predicted.size(), 1));
+}
+
 }  // namespace
 
 void add_dithers(const ScreenPictures& p, ScreenProofs& proofs) {
     std::set<double> values;
     for (const ListPixel& pixel : p.lists.pixels) values.insert(pixel.seen.begin(), pixel.seen.end());
+    const bool is_8_bits = p.lists.format == PortFormat::unorm8;
     for (int bits = 1; bits <= 7; ++bits) {
-        const double codes = std::exp2(bits) - 1;
-        const bool are_codes = std::ranges::all_of(values, [&](double v) {
-            return std::fabs(v * codes - std::nearbyint(v * codes)) < 0.6 * codes * p.lists.unit();
-        });
-        if (!are_codes) continue;
-        std::optional<Dither> best;
-        for (const int period : {2, 4, 8}) {
-            auto thresholds = thresholds_of(p, period, codes);
-            if (!thresholds) continue;
-            const auto [low, high] = std::minmax_element(thresholds->begin(), thresholds->end());
-            if (*high - *low < 0.2) continue;  // the same everywhere: rounded
-            Dither dither{period, codes, *std::move(thresholds)};
-            dither.count_misses(p);
-            if (!best || 10 * dither.misses + 30 < 9 * best->misses) best = std::move(dither);
+        const double codes = std::exp2(bits) - 1, masked = 255 / std::exp2(8 - bits);
+        if (are_codes(values, codes, p.lists.unit())) {
+            add_codes(p, codes, fmt::format("{} bits", bits), proofs);
+            return;
         }
-        if (best)
-            proofs.add(fmt::format("the picture is rounded to {} bits with a dither of {} x {} pixels", bits,
-                                   best->period, best->period),
-                       12, best->mapped(p), std::vector<char>(p.predicted.size(), 1));
-        return;
+        if (is_8_bits && are_codes(values, masked, 1e-4)) {
+            add_codes(p, masked, fmt::format("{} bits, the low ones are 0", bits), proofs);
+            return;
+        }
     }
 }
 

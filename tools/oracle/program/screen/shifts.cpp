@@ -159,7 +159,21 @@ void add_block(const ScreenPictures& p, int wide, int high, ScreenProofs& proofs
 
 void add_shifts(const ScreenPictures& pictures, ScreenProofs& proofs) { ShiftSearch{pictures, proofs}.run(); }
 
+namespace {
+
+void add_pairs(const ScreenPictures& p, int across, int down, std::string words, ScreenProofs& proofs) {
+    std::vector<Color> mapped;
+    for (int y = 0; y < p.height; ++y)
+        for (int x = 0; x < p.width; ++x)
+            mapped.push_back(p.at(std::min(x ^ across, p.width - 1), std::min(y ^ down, p.height - 1)));
+    proofs.add(std::move(words), 8, mapped, std::vector<char>(mapped.size(), 1));
+}
+
+}  // namespace
+
 void add_blocks(const ScreenPictures& pictures, ScreenProofs& proofs) {
+    add_pairs(pictures, 1, 0, "columns are exchanged in pairs", proofs);
+    add_pairs(pictures, 0, 1, "rows are exchanged in pairs", proofs);
     for (const auto& [wide, high] :
          {std::array{2, 2}, std::array{2, 1}, std::array{1, 2}, std::array{3, 3}, std::array{4, 4}, std::array{8, 8}})
         add_block(pictures, wide, high, proofs);

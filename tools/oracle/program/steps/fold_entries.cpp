@@ -128,6 +128,15 @@ double by_distance(const PortLayer& layer, Parameters p) {
 }
 double by_distance_and_alpha(const PortLayer& layer, Parameters p) { return layer.alpha * by_distance(layer, p); }
 double by_power(const PortLayer& layer, Parameters p) { return std::pow(std::max(1 - layer.depth, 0.0), p[0]); }
+template <bool by_alpha>
+double by_gauss(const PortLayer& layer, Parameters p) {
+    const double z = layer.depth / p[0];
+    return std::exp(-std::min(z * z, 700.0)) * (by_alpha ? layer.alpha : 1);
+}
+template <bool by_alpha>
+double by_decay(const PortLayer& layer, Parameters p) {
+    return std::exp(-std::min(layer.depth / p[0], 700.0)) * (by_alpha ? layer.alpha : 1);
+}
 template <auto weight_of>
 Color weighted(Stack layers, const Color& behind, const PortRounding&, Parameters p) {
     const LayerSums s = sums_of<weight_of>(layers, p);
@@ -191,6 +200,39 @@ double by_curve(const PortLayer& layer, Parameters p) {
 std::vector<double> equal_weights(double nearest, double farthest) {
     return {nearest, farthest, 0, 0, 0, 0, 0, 0, 0, 0, 0};
 }
+// Weights that do not grow with depth: those of an average that prefers near layers.
+bool fall_with_depth(Parameters p) { return std::is_sorted(p.rbegin() + 1, p.rend() - 2); }
+
+// Blends of 8-bit codes whose products are shifted instead of divided.
+enum class Shifted : std::uint8_t { sum, each, by_256 };
+template <Shifted how>
+Color shifted(Stack layers, const Color& behind, const PortRounding&, Parameters) {
+    const auto code = [](double v) { return std::floor(std::clamp(v, 0.0, 1.0) * 255 + 0.5); };
+    Color below{code(behind[0]), code(behind[1]), code(behind[2])};
+    for (std::size_t k = layers.size(); k-- > 0;) {
+        const double a = code(layers[k].alpha), whole = how == Shifted::by_256 ? 256 : 255;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double own = code(layers[k].color[c]) * a, rest = below[c] * (whole - a);
+            below[c] =
+                how == Shifted::each ? std::floor(own / 256) + std::floor(rest / 256) : std::floor((own + rest) / 256);
+        }
+    }
+    return {below[0] / 255, below[1] / 255, below[2] / 255};
+}
+// Back to front, kept in fewer bits after every blend.
+template <bool cuts>
+Color in_few_bits(Stack layers, const Color& behind, const PortRounding&, Parameters p) {
+    const double codes = std::exp2(p[0]) - 1;
+    const auto kept = [&](double v) {
+        return std::floor(std::clamp(v, 0.0, 1.0) * codes + (cuts ? 1e-9 : 0.5)) / codes;
+    };
+    Color below{kept(behind[0]), kept(behind[1]), kept(behind[2])};
+    for (std::size_t k = layers.size(); k-- > 0;)
+        for (std::size_t c = 0; c < 3; ++c)
+            below[c] = kept(layers[k].color[c] * layers[k].alpha + below[c] * (1 - layers[k].cover));
+    return below;
+}
+constexpr double scales[] = {0.05, 0.1, 0.3, 1};
 constexpr double distances[] = {0.1, 0.2, 0.5, 1, 10, 200}, exponents[] = {1, 2, 3, 4};
 constexpr double few_bits[] = {1, 2, 3, 4, 5, 6, 7}, shares[] = {0.05, 0.1, 0.2, 0.5, 0.75}, counts[] = {1, 2, 3, 4};
 
@@ -241,10 +283,57 @@ const StepEntry table[] = {
      .is_continuous = true,
      .fold = weighted<by_power>},
     {.step = PortStep::fold,
-     .words =
-         "weighted sums: depths from {} to {} act with weights of e^{}, {}, {}, {}, {}, {}, {}, {}, times alpha^{}",
+     .words = "layers are averaged by weights that depend on depth (weighted sums): e^-(depth / {})^2",
+     .price = 5,
+     .parameters = scales,
+     .is_continuous = true,
+     .fold = weighted<by_gauss<false>>},
+    {.step = PortStep::fold,
+     .words = "layers are averaged by weights that depend on depth (weighted sums): alpha e^-(depth / {})^2",
+     .price = 5,
+     .parameters = scales,
+     .is_continuous = true,
+     .fold = weighted<by_gauss<true>>},
+    {.step = PortStep::fold,
+     .words = "layers are averaged by weights that depend on depth (weighted sums): e^-(depth / {})",
+     .price = 5,
+     .parameters = scales,
+     .is_continuous = true,
+     .fold = weighted<by_decay<false>>},
+    {.step = PortStep::fold,
+     .words = "layers are averaged by weights that depend on depth (weighted sums): alpha e^-(depth / {})",
+     .price = 5,
+     .parameters = scales,
+     .is_continuous = true,
+     .fold = weighted<by_decay<true>>},
+    {.step = PortStep::fold,
+     .words = "blends of 8 bits shift by 8 instead of dividing by 255",
+     .price = 5,
+     .fold = shifted<Shifted::sum>},
+    {.step = PortStep::fold,
+     .words = "blends of 8 bits shift each product by 8 instead of dividing by 255",
+     .price = 5,
+     .fold = shifted<Shifted::each>},
+    {.step = PortStep::fold,
+     .words = "blends of 8 bits weigh what is behind by 256 - alpha and shift by 8",
+     .price = 5,
+     .fold = shifted<Shifted::by_256>},
+    {.step = PortStep::fold,
+     .words = "every blend is rounded to {} bits",
+     .price = 5,
+     .parameters = few_bits,
+     .fold = in_few_bits<false>},
+    {.step = PortStep::fold,
+     .words = "every blend is truncated to {} bits",
+     .price = 5,
+     .parameters = few_bits,
+     .fold = in_few_bits<true>},
+    {.step = PortStep::fold,
+     .words = "layers are averaged by weights that depend on depth (weighted sums): depths from {} to {} act with "
+              "weights of e^{}, {}, {}, {}, {}, {}, {}, {}, times alpha^{}",
      .price = 10,
      .start = equal_weights,
+     .is_plausible = fall_with_depth,
      .fold = weighted<by_curve>},
     {.step = PortStep::fold,
      .words = "behind the first {} layers the others are averaged",

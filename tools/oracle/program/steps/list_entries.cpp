@@ -1,6 +1,7 @@
 // tools/oracle/program/steps/list_entries.cpp - mistakes with a pixel's list: layers left out, doubled, exchanged,
 // moved, merged, or with another layer's colour or alpha (entries.h).
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "tools/oracle/program/steps/entries.h"
@@ -20,6 +21,53 @@ void blend_twice(PortLayers& layers, const SelectedFragments& s, Parameters) {
             layers.insert(layers.begin() + static_cast<std::ptrdiff_t>(i++), copy);
         }
 }
+
+// Each of several copies is blended.
+void blend_again(PortLayers& layers, const SelectedFragments& s, Parameters p) {
+    const PortLayers given = layers;
+    layers.clear();
+    for (const PortLayer& layer : given)
+        layers.insert(layers.end(), s.has(layer) ? static_cast<std::size_t>(p[0]) : 1, layer);
+}
+
+// A peel whose next layer must be farther than the one kept before by more than an epsilon.
+void peel_with_epsilon(PortLayers& layers, const SelectedFragments& s, Parameters p) {
+    double kept = -1e9;
+    std::erase_if(layers, [&](const PortLayer& layer) {
+        const bool is_lost = s.has(layer) && layer.depth - kept <= p[0];
+        if (!is_lost) kept = layer.depth;
+        return is_lost;
+    });
+}
+
+// The same from the back.
+void peel_back_with_epsilon(PortLayers& layers, const SelectedFragments& s, Parameters p) {
+    std::ranges::reverse(layers);
+    double kept = 1e9;
+    std::erase_if(layers, [&](const PortLayer& layer) {
+        const bool is_lost = s.has(layer) && kept - layer.depth <= p[0];
+        if (!is_lost) kept = layer.depth;
+        return is_lost;
+    });
+    std::ranges::reverse(layers);
+}
+
+// A peel that stores depths of fewer bits: a layer that is farther than its stored depth is found again in
+// every pass of as many as there are layers; what lies before the stored depth of another one is lost.
+void peel_with_bits(PortLayers& layers, const SelectedFragments&, Parameters p) {
+    const double codes = std::exp2(p[0]) - 1;
+    const PortLayers given = layers;
+    layers.clear();
+    double stored = -1;
+    for (std::size_t pass = 0; pass < given.size(); ++pass) {
+        const auto next = std::ranges::find_if(given, [&](const PortLayer& layer) { return layer.depth > stored; });
+        if (next == given.end()) return;
+        layers.push_back(*next);
+        stored = std::nearbyint(next->depth * codes) / codes;
+    }
+}
+constexpr double copies[] = {3, 4, 5, 6, 7, 8, 16}, epsilons[] = {1e-5, 1e-4, 1e-3, 1e-2, 0.05},
+                 stored_bits[] = {8, 10, 12, 14, 15, 16, 20};
 
 void exchange_with_next(PortLayers& layers, const SelectedFragments& s, Parameters) {
     for (std::size_t i = 0; i + 1 < layers.size(); ++i)
@@ -75,6 +123,24 @@ void merge_with_before(PortLayers& layers, const SelectedFragments& s, Parameter
 const StepEntry table[] = {
     {.words = "are left out", .price = 2, .edit = leave_out},
     {.words = "are blended twice", .price = 3, .edit = blend_twice},
+    {.words = "are blended {} times", .price = 4, .parameters = copies, .edit = blend_again},
+    {.words = "are lost if they are within {} in depth behind the last layer that was kept",
+     .price = 3,
+     .parameters = epsilons,
+     .is_continuous = true,
+     .is_order = true,
+     .edit = peel_with_epsilon},
+    {.words = "are lost if they are within {} in depth before the last layer that was kept from the back",
+     .price = 4,
+     .parameters = epsilons,
+     .is_continuous = true,
+     .is_order = true,
+     .edit = peel_back_with_epsilon},
+    {.words = "are peeled by depths that are stored in {} bits: layers are lost, or found again in the next pass",
+     .price = 4,
+     .parameters = stored_bits,
+     .is_order = true,
+     .edit = peel_with_bits},
     {.words = "are exchanged with the next ones behind", .price = 4, .edit = exchange_with_next},
     {.words = "are composited in front of all others", .price = 4, .edit = move_to_front},
     {.words = "are composited behind all others", .price = 4, .edit = move_to_back},

@@ -43,6 +43,15 @@ double floored(double v, Parameters p) {
     const double codes = std::exp2(p[0]) - 1;
     return std::floor(v * codes) / (codes + 1);
 }
+double cut(double v, Parameters p) {
+    const double codes = std::exp2(p[0]) - 1;
+    return std::floor(std::clamp(v, 0.0, 1.0) * codes + 1e-9) / codes;
+}
+// Of a code of 8 bits the low ones are dropped.
+double masked(double v, Parameters p) {
+    const double step = std::exp2(8 - p[0]);
+    return std::floor(std::floor(std::clamp(v, 0.0, 1.0) * 255 + 0.5) / step) * step / 255;
+}
 double inverted(double v, Parameters) { return 1 - v; }
 double encode(double v, Parameters) { return encoded(v); }
 double decode(double v, Parameters) { return decoded(v); }
@@ -103,6 +112,20 @@ void mix(PortLayer& layer, Parameters p) {
         layer.color[i] = p[4 * i] * c[0] + p[4 * i + 1] * c[1] + p[4 * i + 2] * c[2] + p[4 * i + 3];
 }
 std::vector<double> identity(double, double) { return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}; }
+// A fog's colour, and its shares at the depths p[3] and p[4], which grow between them.
+void fog(PortLayers& layers, const SelectedFragments& s, Parameters p) {
+    for (PortLayer& layer : layers) {
+        if (!s.has(layer)) continue;
+        const double at = (s.of(layer).depth - p[3]) / std::max(p[4] - p[3], 1e-9);
+        const double share = std::clamp(p[5] + at * (p[6] - p[5]), 0.0, 1.0);
+        for (std::size_t c = 0; c < 3; ++c) layer.color[c] += share * (p[c] - layer.color[c]);
+    }
+}
+std::vector<double> light_fog(double nearest, double farthest) { return {0.5, 0.5, 0.5, nearest, farthest, 0.1, 0.4}; }
+bool is_fog(Parameters p) {
+    const auto is_share = [](double v) { return v > -0.02 && v < 1.02; };
+    return std::all_of(p.begin(), p.begin() + 3, is_share) && is_share(p[5]) && is_share(p[6]) && p[5] < p[6];
+}
 constexpr double slopes[] = {-0.5, 0.5};
 
 const StepEntry table[] = {
@@ -131,6 +154,19 @@ const StepEntry table[] = {
      .price = 5,
      .parameters = bits,
      .edit = each<alpha_by<floored>>},
+    {.words = "have alpha truncated to {} bits", .parameters = bits, .edit = each<alpha_by<cut>>},
+    {.words = "have alpha without the low ones of 8 bits: {} are kept",
+     .parameters = bits,
+     .edit = each<alpha_by<masked>>},
+    {.words = "have colours truncated to {} bits", .parameters = bits, .edit = each<color_by<cut>>},
+    {.words = "have colours without the low ones of 8 bits: {} are kept",
+     .parameters = bits,
+     .edit = each<color_by<masked>>},
+    {.words = "are in a fog of colour ({}, {}, {}) that grows from depth {} to {}, from a share of {} to {}",
+     .price = 10,
+     .start = light_fog,
+     .is_plausible = is_fog,
+     .edit = fog},
     {.words = "have 1 - alpha as alpha", .price = 3, .edit = each<alpha_by<inverted>>},
     {.words = "have alpha encoded as sRGB", .price = 5, .edit = each<alpha_by<encode>>},
     {.words = "have alpha decoded from sRGB", .price = 5, .edit = each<alpha_by<decode>>},
