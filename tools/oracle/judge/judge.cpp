@@ -18,6 +18,7 @@
 #include "tools/oracle/judge/forgotten.h"
 #include "tools/oracle/judge/layers_verdict.h"
 #include "tools/oracle/judge/picture_diagnosis.h"
+#include "tools/oracle/judge/sample_habits.h"
 #include "tools/oracle/picture/stored_like.h"
 #include "tools/oracle/program/drawing/fit_drawings.h"
 #include "tools/oracle/program/screen/screen.h"
@@ -102,18 +103,62 @@ class Judge {
             return by_layers();
         }
         if (is_of_one_mistake) return by_emulation();
+        if (is_sample_habit()) return;
         const bool is_open = !is_right_in_another_view() && !layers_->is_undecided();
         if (is_open && emulated_.kind == Kind::mistakes) return by_emulation();
+        if (is_open && is_of_another_peel()) return by_emulation();
         if (is_open && is_fitted()) return;
         by_layers();
         if (fitting_) add_fitted_leads();
+    }
+
+    // What a port does once a pixel that others do for every sample.
+    [[nodiscard]] bool is_sample_habit() {
+        if (!layers_->samples) return false;
+        const std::string words = sample_habit(input_, layers_->colors(), layers_->wrong_colors().size());
+        if (words.empty()) return false;
+        found_.state = JudgedState::explained;
+        found_.mistakes = {words};
+        found_.sentence = "wrong: " + words;
+        is_habit_ = true;
+        return true;
+    }
+
+    // Where no algorithm is stated, a peel from the front has mistakes that dual has not.
+    [[nodiscard]] bool is_of_another_peel() {
+        const TargetImage& colors = colors_of(asked_.candidate);
+        if (asked_.algorithm != nullptr || !layers_->single || colors.pixels() > most_pixels_of_emulations)
+            return false;
+        const auto& wrong = layers_->wrong_colors();
+        if (wrong.empty()) return false;
+        const peeling::Algorithm& peel = *peeling::find_algorithm("front_to_back");
+        Emulated found = emulated_alone(input_, peel, asked_, verdict::most_wrong(wrong, colors.width));
+        if (found.kind != Kind::mistakes && found.kind != Kind::other_options) return false;
+        emulated_ = std::move(found);
+        emulated_.words += ", of front_to_back";
+        return true;
+    }
+
+    // True if the picture of the stated algorithm is explained in the same way: it is no mistake then.
+    [[nodiscard]] bool is_own_habit() {
+        if (algorithm_.exact) return false;
+        const Picture own = emulations_ ? emulations_->right : MistakeRenderer{input_, algorithm_}.right();
+        const verdict::Colors colors{colors_of(own)};
+        const program::Lists all = program::lists_of(*layers_->single->fragments, colors, true);
+        const program::Fitting fitting = fit(all);
+        const auto maps = explain_by_screen(all, fitting.right);
+        if (!screen_.empty()) return !maps.empty() && maps[0].words == screen_[0].words;
+        const auto entry_of = [](const program::Fitting& f) {
+            return f.found.empty() || f.found[0].program.edits.empty() ? nullptr : f.found[0].program.edits[0].entry;
+        };
+        return entry_of(fitting) != nullptr && entry_of(fitting) == entry_of(*fitting_);
     }
 
     // True if a program of few words gives the picture, or another way to draw the scene. Scenes of many fragments are
     // not fitted.
     [[nodiscard]] bool is_fitted() {
         const std::uint64_t most_fragments = effort_ == Effort::all ? 1'000'000 : 250'000;
-        if (!layers_->single || !algorithm_.exact) return false;
+        if (!layers_->single) return false;
         const verdict::SceneFragments& fragments = *layers_->single->fragments;
         if (!fragments.keeps() || fragments.count() > most_fragments) return false;
         const verdict::Colors colors = layers_->colors();
@@ -123,6 +168,11 @@ class Judge {
         if (!is_drawn_otherwise) screen_ = explain_by_screen(all, fitting_->right);
         if (!is_drawn_otherwise && screen_.empty()) fitting_ = fit(program::lists_of(fragments, colors));
         if (screen_.empty() && fitting_->state != program::Fitting::State::explained) return false;
+        if (is_own_habit()) {
+            screen_.clear();
+            fitting_.reset();
+            return false;
+        }
         found_.state = JudgedState::explained;
         for (const program::ScreenMap& map : screen_) found_.mistakes.push_back(map.words);
         if (screen_.empty())
@@ -279,7 +329,11 @@ class Judge {
                                 asked_.candidate.targets[0].pixels());
         }
         if (is_named_by_fitting() && screen_.empty()) text += divided(to_text(*fitting_)).second;
-        if (layers_ && !is_by_emulation_ && !is_named_by_fitting() && layers_->is_right() == found_.is_right)
+        if (is_habit_)
+            text += fmt::format("  explains all {} pixels that are not the mean of right samples\n",
+                                layers_->wrong_colors().size());
+        if (layers_ && !is_by_emulation_ && !is_habit_ && !is_named_by_fitting() &&
+            layers_->is_right() == found_.is_right)
             text += lines_of_layers;
         if (!emulations_) {
             if (layers_->samples && found_.state == JudgedState::not_explained)
@@ -324,7 +378,7 @@ class Judge {
     Emulated emulated_{};
     std::optional<program::Fitting> fitting_{};
     std::vector<program::ScreenMap> screen_{};  // what explains the picture, if any does
-    bool is_by_emulation_ = false, makes_right_ = false;
+    bool is_by_emulation_ = false, is_habit_ = false, makes_right_ = false;
     Judgement found_{};
 };
 

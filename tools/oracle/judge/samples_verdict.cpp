@@ -22,11 +22,8 @@ using verdict::PictureQuestion;
 using verdict::ResolvedVerdict;
 using verdict::SceneFragments;
 
-namespace {
-
-// The fragments of each sample by the rules, of a part of the picture or of all of it.
-verdict::Samples samples_of(const peeling::FrameRequest& input, const OtherRules& rules,
-                            const std::optional<rasterizer::Rect>& within = {}) {
+verdict::Samples samples_by(const OtherRules& rules, const peeling::FrameRequest& input,
+                            const std::optional<rasterizer::Rect>& within) {
     const int count = input.options.sampling.samples;
     if (auto lacking = pipeline::check_multisampling(rules.profile, count))
         throw pipeline::Refused{rules.profile, *std::move(lacking)};
@@ -41,6 +38,8 @@ verdict::Samples samples_of(const peeling::FrameRequest& input, const OtherRules
     }
     return samples;
 }
+
+namespace {
 
 // The ways to read the picture's colours.
 std::vector<Formed> forms_of(const PictureQuestion& asked) {
@@ -71,8 +70,8 @@ std::optional<ResolvedVerdict> right_samples_by(const OtherRules& rules, const p
         return std::nullopt;
     try {
         const rasterizer::Rect part = verdict::most_wrong(wrong, candidate.width());
-        if (!right_resolved(samples_of(input, rules, part), candidate, wrong, part)) return std::nullopt;
-        return right_resolved(samples_of(input, rules), candidate, wrong);
+        if (!right_resolved(samples_by(rules, input, part), candidate, wrong, part)) return std::nullopt;
+        return right_resolved(samples_by(rules, input), candidate, wrong);
     } catch (const pipeline::Refused&) {
         return std::nullopt;
     }
@@ -80,7 +79,7 @@ std::optional<ResolvedVerdict> right_samples_by(const OtherRules& rules, const p
 
 SamplesVerdict judge_samples(const peeling::FrameRequest& input, const PictureQuestion& question) {
     SamplesVerdict verdict{.by = "the rules of profile " + input.profile.name};
-    const verdict::Samples given = samples_of(input, {"", input.profile, input.options.raster.interpolation});
+    const verdict::Samples given = samples_by({"", input.profile, input.options.raster.interpolation}, input);
     for (Formed& form : forms_of(question)) {
         ResolvedVerdict found = judge_resolved(given, form.colors());
         if (!verdict.form.target.codes.empty() && !is_better(found, verdict.found)) continue;

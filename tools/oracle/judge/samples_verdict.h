@@ -34,6 +34,10 @@ struct SamplesVerdict {
 [[nodiscard]] SamplesVerdict judge_samples(const peeling::FrameRequest& input,
                                            const verdict::PictureQuestion& question);
 
+// The fragments of each sample by the rules, of a part of the picture or of all of it. Throws Refused.
+[[nodiscard]] verdict::Samples samples_by(const verdict::OtherRules& rules, const peeling::FrameRequest& input,
+                                          const std::optional<rasterizer::Rect>& within = {});
+
 // The verdict by the rules if the picture is right by them. `wrong`: pixels that are wrong by the rules given, which
 // are compared first.
 [[nodiscard]] std::optional<verdict::ResolvedVerdict> right_samples_by(const verdict::OtherRules& rules,

@@ -1,0 +1,45 @@
+// tools/oracle/judge/sample_habits.h - what ports with several samples per pixel do once a pixel: lists without masks,
+// and peels of resolved targets.
+//
+// Rule     The fragments of all samples are composited as such a port does; a habit is named if the picture is that of
+//          one, to 2 codes, at all pixels but a 40th of the wrong ones, with the samples' own colours or the pixel's.
+// Tests    tests/tools/oracle/judge/sample_habits_test.cpp: pictures by plain code on two samples
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "peeling/frame_request.h"
+#include "tools/oracle/verdict/resolved.h"
+
+namespace strata::oracle {
+
+using SampleColor = std::array<double, 3>;
+
+struct SampleFragment {
+    SampleColor color{};  // multiplied by alpha
+    double alpha = 0;
+    double depth = 0;   // of its program, which may run once a pixel
+    double stored = 0;  // of its sample
+    std::uint32_t primitive = 0;
+};
+
+// A pixel's visible fragments at every sample, near to far, and what is behind them.
+struct SamplePixelLists {
+    std::vector<std::vector<SampleFragment>> lists{};
+    std::vector<SampleColor> behind{};
+};
+
+// One list for the pixel, of every fragment that covers a sample.
+[[nodiscard]] SampleColor without_mask(const SamplePixelLists& pixel);
+// How a peel resolves the depths that the next pass compares with.
+enum class DepthResolve : std::uint8_t { mean, first_sample };
+// Layers and their depths are resolved after every pass.
+[[nodiscard]] SampleColor peeled_resolved(const SamplePixelLists& pixel, DepthResolve resolve);
+
+// In words; "" if no habit gives the picture. `wrong`: the number of pixels that are wrong for right samples.
+[[nodiscard]] std::string sample_habit(const peeling::FrameRequest& input, const verdict::Colors& picture,
+                                       std::size_t wrong);
+
+}  // namespace strata::oracle
