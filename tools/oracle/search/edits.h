@@ -6,6 +6,7 @@
 // Tests    tests/tools/oracle/search/edits_test.cpp
 #pragma once
 #include <optional>
+#include <string>
 
 #include "tools/oracle/fragments/sample.h"
 #include "tools/oracle/rounding/composite.h"
@@ -41,6 +42,8 @@ struct PixelEdits {
     std::optional<double> alpha{};  // the candidate's, where the verdict tells something of alpha
     bool has_wrong_alpha = false;
     std::vector<PixelEdit> edits{};
+    std::string
+        surface{};  // if no edit gives the value, in words: the opaque surface that would; "": none, or not asked
 };
 [[nodiscard]] PixelEdits edits_at(const SceneFragments& scene, const Colors& candidate, const Verdict& verdict, int x,
                                   int y);

@@ -64,7 +64,8 @@ std::string to_text(const PixelEdits& p, const Verdict& v, const pipeline::DrawL
     if (pixel.edge != nullptr) add("at an edge: another rasterizer may cover it otherwise");
     for (const PixelEdit& edit : p.edits)
         add(fmt::format("it comes out so if {} ({})", description_of(edit, v, list), reach_text(edit.reach)));
-    if (!p.is_right && !p.has_wrong_alpha && p.edits.empty()) add("no mistake that is known here gives its value");
+    if (!p.is_right && !p.has_wrong_alpha && p.edits.empty())
+        add(p.surface.empty() ? "no mistake that is known here gives its value" : p.surface);
     return text;
 }
 
@@ -91,6 +92,7 @@ std::string to_json(const PixelEdits& p, const Verdict& v, const pipeline::DrawL
                           {"has_opaque", pixel.has_opaque},
                           {"at_edge", pixel.edge != nullptr},
                           {"edits", ordered_json::array()}};
+    if (!p.surface.empty()) document["opaque_surface"] = p.surface;
     if (p.alpha) document["alpha"] = {{"candidate", *p.alpha}, {"right", {p.right[3].low, p.right[3].high}}};
     for (const Fragment& f : pixel.visible) document["layers"].push_back(fragment_json(f));
     for (const Fragment& f : pixel.hidden) document["hidden"].push_back(fragment_json(f));

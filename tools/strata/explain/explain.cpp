@@ -7,6 +7,7 @@
 #include "tools/oracle/explain/history_report.h"
 #include "tools/oracle/fragments/form.h"
 #include "tools/oracle/judge/asked_picture.h"
+#include "tools/oracle/program/drawing/surfaces.h"
 #include "tools/oracle/search/edits.h"
 #include "tools/strata/command.h"
 #include "tools/strata/compare/compare_scene.h"
@@ -42,7 +43,12 @@ int explain_candidate(CandidateQuestion question) {
     const oracle::verdict::Formed formed = oracle::verdict::formed(fragments, colors, false);
     const oracle::verdict::Colors seen = formed.colors();
     const oracle::verdict::Verdict verdict = judge(fragments, seen);
-    const oracle::verdict::PixelEdits edits = edits_at(fragments, seen, verdict, question.x, question.y);
+    oracle::verdict::PixelEdits edits = edits_at(fragments, seen, verdict, question.x, question.y);
+    if (!edits.is_right && edits.edits.empty()) {
+        const auto value = seen.at(question.x, question.y);
+        edits.surface = oracle::program::shown_surface(session.request(scene.run.render), question.x, question.y,
+                                                       {value[0], value[1], value[2]});
+    }
     print(question.json ? to_json(edits, verdict, session.scene.list) : to_text(edits, verdict, session.scene.list));
     return edits.is_right ? 0 : 1;
 }

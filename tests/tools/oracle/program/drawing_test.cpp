@@ -195,6 +195,26 @@ TEST_CASE("of all surfaces of a scene the nearest opaque one is what its opaque 
     CHECK(different == 0);
 }
 
+TEST_CASE("a pixel's colour that is that of another opaque surface is told as that") {
+    OpenedScene opened{"showroom", 64, 48};
+    const auto picture = opened.picture("front_to_back", strata::pipeline::Format::rgba8);
+    REQUIRE(picture);
+    const strata::oracle::verdict::SceneFragments fragments = opened.fragments();
+    const SceneSurfaces surfaces =
+        surfaces_of(opened.input(), lists_of(fragments, strata::oracle::verdict::Colors{*picture}, true));
+    for (std::size_t i = 0; i < surfaces.opaque.pixels.size(); ++i) {
+        const ListPixel& pixel = surfaces.opaque.pixels[i];
+        if (pixel.fragments.size() < 2 || !surfaces.layers[i].empty()) continue;
+        const std::string words = shown_surface(opened.input(), pixel.x, pixel.y, pixel.fragments[1].color);
+        INFO(words);
+        CHECK(words.starts_with("it comes out so if the opaque surface of instance " +
+                                std::to_string(pixel.fragments[1].instance)));
+        CHECK(shown_surface(opened.input(), pixel.x, pixel.y, {0.123, 0.987, 0.456}).empty());
+        return;
+    }
+    FAIL("no pixel has two opaque surfaces and no layer");
+}
+
 TEST_CASE("positions on a coarse grid are named") {
     OpenedScene opened{"teapot", 64, 48};
     opened.profile.raster.subpixel_bits = 1;

@@ -5,6 +5,7 @@
 //          given lists, in their order.
 // Tests    tests/tools/oracle/program/drawing_test.cpp
 #pragma once
+#include <string>
 #include <vector>
 
 #include "peeling/frame_request.h"
@@ -21,5 +22,9 @@ struct SceneSurfaces {
 
 // `alike`: lists of the same scene. Empty if all surfaces are transparent.
 [[nodiscard]] SceneSurfaces surfaces_of(const peeling::FrameRequest& input, const Lists& alike);
+
+// "it comes out so if ...": the opaque surface behind the nearest one that gives the colour of the pixel, with the
+// layers before it; "" if none does.
+[[nodiscard]] std::string shown_surface(const peeling::FrameRequest& input, int x, int y, const Color& seen);
 
 }  // namespace strata::oracle::program
