@@ -164,9 +164,16 @@ class Judge {
         const verdict::Colors colors = layers_->colors();
         const program::Lists all = program::lists_of(fragments, colors, true);
         fitting_ = fit_drawings(all, program::other_drawings(input_, all, colors));
+        // Of another drawing with one more edit plainer explanations are asked first.
         const bool is_drawn_otherwise = fitting_->state == program::Fitting::State::explained;
-        if (!is_drawn_otherwise) screen_ = explain_by_screen(all, fitting_->right);
-        if (!is_drawn_otherwise && screen_.empty()) fitting_ = fit(program::lists_of(fragments, colors));
+        const bool is_pair = is_drawn_otherwise && !fitting_->found[0].program.edits.empty();
+        if (!is_drawn_otherwise || is_pair) {
+            screen_ = explain_by_screen(all, fitting_->right);
+            if (screen_.empty()) {
+                program::Fitting fitted = fit(program::lists_of(fragments, colors));
+                if (!is_pair || fitted.state == program::Fitting::State::explained) fitting_ = std::move(fitted);
+            }
+        }
         if (screen_.empty() && fitting_->state != program::Fitting::State::explained) return false;
         if (is_own_habit()) {
             screen_.clear();

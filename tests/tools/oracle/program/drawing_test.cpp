@@ -168,6 +168,22 @@ TEST_CASE("what became of opaque surfaces is named") {
     }
 }
 
+TEST_CASE("an opaque pass and a mistake with layers are named together") {
+    const std::vector<PortSurfaces> pixels = random_surfaces(9, 2000, false);
+    std::vector<PortSurfaces> darker = pixels;
+    for (PortSurfaces& pixel : darker)
+        for (PortSurface& s : pixel)
+            if (!s.is_opaque)
+                for (double& c : s.f.color) c *= 0.5;
+    const PortPicture picture = painted_surfaces(
+        darker, [](const PortSurfaces& p) { return nearest_of(p, [](const PortFragment& f) { return f.is_front; }); });
+    const std::string text = said_of(pixels, picture);
+    INFO(text);
+    CHECK(
+        text.starts_with("wrong: opaque fragments of back faces are left out; and all fragments have colours times "
+                         "0.5\n"));
+}
+
 TEST_CASE("a right opaque pass is not called wrong") {
     const std::vector<PortSurfaces> pixels = random_surfaces(8, 1500, true);
     const PortPicture picture = painted_surfaces(pixels, [](const PortSurfaces& p) { return nearest_of(p); });

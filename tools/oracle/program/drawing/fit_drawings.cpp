@@ -36,16 +36,23 @@ std::vector<Proof> told(const std::vector<ProvedDrawing>& whole) {
 Fitting fit_drawings(const Lists& given, const std::vector<OtherLists>& others) {
     using State = Fitting::State;
     Fitting fitting{.right = best_fitness(given, {})};
-    std::vector<ProvedDrawing> whole, part;
+    std::vector<ProvedDrawing> whole, part, cheaper;
     for (const OtherLists& other : others) {
         Program program;
         program.drawing = other.words;
         program.drawing_price = other.price;
         Proof proof = prove(other.lists, program, fitting.right, &given);
+        constexpr double some = 0.8;  // of the cost of the right program: worth a search on top
+        if (proof.cost < some * fitting.right.bits) cheaper.push_back({&other, proof});
         if (proof.is_whole)
             whole.push_back({&other, std::move(proof)});
         else if (proof.is_part)
             part.push_back({&other, std::move(proof)});
+    }
+    if (whole.empty() && !cheaper.empty()) {
+        const ProvedDrawing& base = std::ranges::min(cheaper, {}, [](const ProvedDrawing& d) { return d.proof.cost; });
+        for (Proof& proof : with_one_more(base.other->lists, base.proof, fitting.right))
+            whole.push_back({base.other, std::move(proof)});
     }
     if (!whole.empty()) {
         fitting.state = State::explained;

@@ -65,14 +65,29 @@ std::vector<Proof> alike(const Lists& lists, std::vector<Proof> proofs) {
 // and if it repairs some pixels.
 bool is_plain_pair(const Program& program) {
     const Edit &first = program.edits.front(), &second = program.edits.back();
+    const bool are_orders = program.edits.size() > 1 && first.entry->is_order && second.entry->is_order;
     return second.conditions.size() <= 1 && first.conditions.size() <= 1 &&
-           std::ranges::all_of(second.parameters, is_round) && !(first.entry->is_order && second.entry->is_order);
+           std::ranges::all_of(second.parameters, is_round) && !are_orders;
 }
 
 std::vector<Proof> only(std::vector<Proof> proofs, bool Proof::*is) {
     std::erase_if(proofs, [&](const Proof& p) { return !(p.*is); });
     return proofs;
 }
+
+}  // namespace
+
+std::vector<Proof> with_one_more(const Lists& lists, const Proof& base, const Fitness& right) {
+    std::vector<Proof> whole =
+        only(search_and_prove(lists, base.program, base.fitness.rounding, right), &Proof::is_whole);
+    constexpr std::uint64_t few = 20;  // pixels
+    std::erase_if(whole, [&](const Proof& p) {
+        return !is_plain_pair(p.program) || base.fitness.beyond < p.fitness.beyond + few;
+    });
+    return whole;
+}
+
+namespace {
 
 // Right, and described in few bits: nothing else is asked.
 bool is_plainly_right(const Fitness& right) { return is_narrow(right) && right.bits_per_covered() <= 1.2; }
@@ -93,12 +108,7 @@ Fitting fitted(const Lists& lists) {
         std::erase_if(whole, [&](const Proof& p) { return p.cost > 0.12 * right.bits; });
         part.clear();
     } else if (whole.empty() && !part.empty()) {
-        const Proof& base = std::ranges::min(part, {}, &Proof::cost);
-        whole = only(search_and_prove(lists, base.program, base.fitness.rounding, right), &Proof::is_whole);
-        constexpr std::uint64_t few = 20;  // pixels
-        std::erase_if(whole, [&](const Proof& p) {
-            return !is_plain_pair(p.program) || base.fitness.beyond < p.fitness.beyond + few;
-        });
+        whole = with_one_more(lists, std::ranges::min(part, {}, &Proof::cost), right);
     }
     if (!whole.empty()) {
         fitting.state = State::explained;

@@ -27,6 +27,9 @@ struct Fitting {
 
 [[nodiscard]] Fitting fit(const Lists& lists);
 
+// What explains the picture with one more edit on top of a program that explains a part of it.
+[[nodiscard]] std::vector<Proof> with_one_more(const Lists& lists, const Proof& base, const Fitness& right);
+
 // "of back faces and with depth at least 0.7"
 [[nodiscard]] std::string joined_words(std::span<const Condition> conditions);
 // "all fragments of back faces have alpha times 0.5"
