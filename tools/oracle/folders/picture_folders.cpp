@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/file_ending.h"
@@ -46,19 +47,23 @@ std::string name_with_ending(std::string name, const std::string& path) {
 
 class PairedNames {
   public:
-    explicit PairedNames(const PictureNames& names) : names_{names} {}
+    PairedNames(const PictureNames& names, bool is_one_folder) : names_{names}, is_one_folder_{is_one_folder} {}
 
     void add_reference(const std::string& folder, const std::string& path) {
+        if (is_one_folder_ && names_.candidate && name_in(path, *names_.candidate)) return;
         for (const NamePattern& pattern : names_.baselines)
             if (const auto name = name_in(path, pattern)) {
+                taken_.insert(key(folder, path));
                 further_[names_.reference ? *name : name_with_ending(*name, path)].push_back(path);
                 return;
             }
-        if (const auto name = name_of(path, names_.reference)) add(references_, folder, *name, path);
+        if (const auto name = name_of(folder, path, names_.reference)) add(references_, folder, *name, path);
     }
 
     void add_candidate(const std::string& folder, const std::string& path) {
-        if (const auto name = name_of(path, names_.candidate)) add(candidates_, folder, *name, path);
+        const auto fits = [&](const NamePattern& pattern) { return name_in(path, pattern).has_value(); };
+        if (is_one_folder_ && !names_.candidate && std::ranges::any_of(names_.baselines, fits)) return;
+        if (const auto name = name_of(folder, path, names_.candidate)) add(candidates_, folder, *name, path);
     }
 
     [[nodiscard]] PairedFolders pairs() const {
@@ -67,7 +72,8 @@ class PairedNames {
         for (const auto& [name, paths] : further_)
             all[name].references.insert(all[name].references.end(), paths.begin(), paths.end());
         for (const auto& [name, path] : candidates_) all[name].candidate = path;
-        PairedFolders found{.left_out = left_out_};
+        PairedFolders found;
+        for (const std::string& file : left_out_) found.left_out += taken_.contains(file) ? 0 : 1;
         for (auto& [name, pictures] : all) {
             pictures.name = name;
             found.pictures.push_back(std::move(pictures));
@@ -76,28 +82,37 @@ class PairedNames {
     }
 
   private:
-    std::optional<std::string> name_of(const std::string& path, const std::optional<NamePattern>& pattern) {
+    // Of a file: one for both folders if they are one.
+    [[nodiscard]] std::string key(const std::string& folder, const std::string& path) const {
+        return is_one_folder_ ? path : folder + '/' + path;
+    }
+
+    std::optional<std::string> name_of(const std::string& folder, const std::string& path,
+                                       const std::optional<NamePattern>& pattern) {
         const auto name = pattern ? name_in(path, *pattern) : is_picture(path) ? std::optional{path} : std::nullopt;
-        if (!name) ++left_out_;
+        if (!name) left_out_.insert(key(folder, path));
         return name;
     }
 
-    static void add(std::map<std::string, std::string>& to, const std::string& folder, const std::string& name,
-                    const std::string& path) {
+    void add(std::map<std::string, std::string>& to, const std::string& folder, const std::string& name,
+             const std::string& path) {
         const auto [before, is_new] = to.emplace(name, path);
+        taken_.insert(key(folder, path));
         if (!is_new) throw InputError(folder, "names", "one picture named " + name, before->second + " and " + path);
     }
 
     const PictureNames& names_;
     std::map<std::string, std::string> references_, candidates_;
     std::map<std::string, std::vector<std::string>> further_;
-    std::size_t left_out_ = 0;
+    bool is_one_folder_;
+    std::set<std::string> left_out_, taken_;
 };
 
 }  // namespace
 
 PairedFolders pair_folders(const std::string& reference, const std::string& candidate, const PictureNames& names) {
-    PairedNames paired(names);
+    std::error_code unread;
+    PairedNames paired(names, fs::equivalent(reference, candidate, unread));
     for (const std::string& path : files_in(reference, candidate)) paired.add_reference(reference, path);
     for (const std::string& path : files_in(candidate, reference)) paired.add_candidate(candidate, path);
     PairedFolders found = paired.pairs();

@@ -1,11 +1,11 @@
 // tools/oracle/folders/picture_folders.h - pairs the pictures of two folders by their names.
 //
 // Rule     Without patterns a picture's name is its path in the folder, with its ending, and files of other endings
-// than
-//          those of pictures are left out. With patterns the name is the part that {name} stands for, and every file
-//          that the pattern fits is a picture. A path that a pattern of further baselines fits is a further baseline of
-//          that name, and nothing else. Hidden files, hidden folders and linked folders are left out, and so is one of
-//          the two folders where it lies in the other. Pictures are sorted by the bytes of their names.
+//          than those of pictures are left out. With patterns the name is the part that {name} stands for, and every
+//          file that the pattern fits is a picture. A path that a pattern of further baselines fits is a further
+//          baseline of that name, and nothing else. Where both folders are one, no candidate is a baseline. Hidden
+//          files, hidden folders and linked folders are left out, and so is one of the two folders where it lies in
+//          the other. Pictures are sorted by the bytes of their names.
 // Tests    tests/tools/oracle/folders/picture_folders_test.cpp
 #pragma once
 #include <optional>

@@ -50,6 +50,28 @@ TEST_CASE("patterns choose the files and their names, also in one folder") {
     CHECK(lines_of(found) == Lines{"a: a-expected.png|a-actual.png", "b: b-expected.png|"});
 }
 
+TEST_CASE("in one folder no candidate is a baseline and no further baseline is a candidate") {
+    const TwoFolders folders;
+    for (const char* path : {"a-expected.png", "a-actual.png", "b-actual.png", "a-win.png", "note.txt"})
+        folders.write_reference(path, "");
+    const std::vector<NamePattern> any{*name_pattern("{name}-*.png")};
+    const PairedFolders found = pair_folders(folders.reference(), folders.reference(),
+                                             {.reference = name_pattern("{name}-expected.png"),
+                                              .candidate = name_pattern("{name}-actual.png"),
+                                              .baselines = any});
+    CHECK(lines_of(found) == Lines{"a: a-expected.png,a-win.png|a-actual.png", "b: |b-actual.png"});
+    CHECK(found.left_out == 1);
+    const std::vector<NamePattern> win{*name_pattern("{name}-win.png")};
+    CHECK(lines_of(pair_folders(folders.reference(), folders.reference(), {.baselines = win})) ==
+          Lines{"a-actual.png: a-actual.png|a-actual.png", "a-expected.png: a-expected.png|a-expected.png",
+                "a.png: a-win.png|", "b-actual.png: b-actual.png|b-actual.png"});
+    CHECK(lines_of(pair_folders(folders.reference(), folders.reference(),
+                                {.reference = name_pattern("{name}.png"),
+                                 .candidate = name_pattern("{name}-actual.png"),
+                                 .baselines = {}})) ==
+          Lines{"a: |a-actual.png", "a-expected: a-expected.png|", "a-win: a-win.png|", "b: |b-actual.png"});
+}
+
 TEST_CASE("further baselines come after the picture of the name itself") {
     const TwoFolders folders;
     for (const char* path : {"a@win.png", "a.png", "a@mac.png", "b@mac.png", "c.png"})
