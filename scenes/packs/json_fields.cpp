@@ -91,7 +91,13 @@ const json& JsonReader::at(const std::string& key) {
     if (found == value_.end())
         throw InputError(file_, pointer_.empty() ? "/" : pointer_, "the key '" + key + "'", "none");
     read_.insert(key);
+    known_.insert(key);
     return *found;
+}
+
+bool JsonReader::has(const std::string& key) {
+    known_.insert(key);
+    return value_.contains(key);
 }
 
 void JsonReader::fail(const std::string& key, const std::string& expected) const {
@@ -101,7 +107,7 @@ void JsonReader::fail(const std::string& key, const std::string& expected) const
 void JsonReader::end() const {
     for (const auto& [key, value] : value_.items()) {
         if (read_.contains(key)) continue;
-        const std::vector<std::string_view> known{read_.begin(), read_.end()};
+        const std::vector<std::string_view> known{known_.begin(), known_.end()};
         throw InputError(file_, pointer_.empty() ? "/" : pointer_,
                          fmt::format("only the keys {}", fmt::join(known, ", ")), quoted_with_suggestion(key, known));
     }

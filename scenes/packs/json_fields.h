@@ -129,7 +129,8 @@ class JsonReader {
 
     // The value of a required key, which is marked as read.
     [[nodiscard]] const nlohmann::json& at(const std::string& key);
-    [[nodiscard]] bool has(const std::string& key) const { return value_.contains(key); }
+    // Of an optional key.
+    [[nodiscard]] bool has(const std::string& key);
     [[nodiscard]] bool is_null(const std::string& key) { return at(key).is_null(); }
     [[noreturn]] void fail(const std::string& key, const std::string& expected) const;
     [[nodiscard]] std::string pointer_of(const std::string& key) const { return pointer_ + "/" + key; }
@@ -144,7 +145,7 @@ class JsonReader {
     const nlohmann::json& value_;
     const std::string& file_;
     std::string pointer_;
-    std::set<std::string> read_{};
+    std::set<std::string> read_{}, known_{};
 };
 
 }  // namespace strata::scenes

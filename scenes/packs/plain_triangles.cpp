@@ -104,10 +104,19 @@ pipeline::Matrix matrix_at(JsonReader& io, const std::string& key, const std::st
 void read_indices(JsonReader& io, const std::string& path, Mesh& mesh) {
     const json& rows = io.at("indices");
     const bool has_row = rows.is_array() && !rows.empty() && rows[0].is_array();
-    const std::size_t corners = has_row && (rows[0].size() == 1 || rows[0].size() == 2) ? rows[0].size() : 3;
+    const std::size_t corners = has_row ? rows[0].size() : 3;
+    if (corners < 1 || corners > 3)
+        throw InputError(path, "/indices/0", "an array of 1, 2 or 3 numbers", fmt::format("one of {}", corners));
     mesh.primitive = rasterizer::primitive_of(corners);
+    std::size_t number = 0;
     for_each_row<std::uint32_t>(io, "indices", corners, path, [&](const std::vector<std::uint32_t>& row) {
+        for (std::size_t i = 0; i < row.size(); ++i)
+            if (row[i] >= mesh.positions.size())
+                throw InputError(path, fmt::format("/indices/{}/{}", number, i),
+                                 fmt::format("less than {}, the number of positions", mesh.positions.size()),
+                                 std::to_string(row[i]));
         rasterizer::append_primitive(mesh.indices, row);
+        ++number;
     });
 }
 
@@ -122,7 +131,7 @@ Mesh mesh_of_json(const std::string& path, std::optional<pipeline::View>& view) 
         if (is_homogeneous) mesh.w.push_back(p[3]);
     });
     if (is_homogeneous) view = pipeline::View{};
-    if (document.contains("colors"))
+    if (io.has("colors"))
         for_each_row<float>(io, "colors", 4, path, [&](const std::vector<float>& c) {
             mesh.colors.push_back({c[0], c[1], c[2], c[3]});
         });
@@ -131,12 +140,15 @@ Mesh mesh_of_json(const std::string& path, std::optional<pipeline::View>& view) 
     if (mesh.colors.size() != mesh.positions.size())
         throw InputError(path, "/colors", fmt::format("{} colours, one per position", mesh.positions.size()),
                          std::to_string(mesh.colors.size()));
-    if (document.contains("indices"))
+    const bool has_indices = io.has("indices"), has_view = io.has("view"), has_projection = io.has("projection");
+    if (!has_indices && mesh.positions.size() % 3 != 0)
+        throw InputError(path, "/positions", "three per triangle, as there are no indices",
+                         std::to_string(mesh.positions.size()));
+    if (has_indices)
         read_indices(io, path, mesh);
     else
         number_through(mesh);
-    if (document.contains("view") || document.contains("projection"))
-        view = {matrix_at(io, "view", path), matrix_at(io, "projection", path)};
+    if (has_view || has_projection) view = {matrix_at(io, "view", path), matrix_at(io, "projection", path)};
     io.end();
     return mesh;
 }

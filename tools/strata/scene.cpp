@@ -178,11 +178,10 @@ std::string describe(const scenes::Scene& scene) {
 // Warns, with advice, if nothing of the scene would be rendered.
 void warn_of_empty(const std::string& path, const scenes::Scene& scene) {
     if (drawn(scene.list, std::nullopt).triangles > 0) return;
-    say_warning(
-        path + ": nothing would be drawn, because the scene has no triangles; " +
-        (scene.scene_count > 1
-             ? fmt::format("--scene N, 0 to {}, chooses another scene of the file", scene.scene_count - 1)
-             : std::string("export its meshes as triangles, or try a built-in scene: strata list scenes shows them")));
+    say_warning(path + ": nothing would be drawn, because the scene has no triangles, lines or points; " +
+                (scene.scene_count > 1
+                     ? fmt::format("--scene N, 0 to {}, chooses another scene of the file", scene.scene_count - 1)
+                     : std::string("export its meshes, or try a built-in scene: strata list scenes shows them")));
 }
 
 }  // namespace

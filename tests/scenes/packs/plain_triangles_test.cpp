@@ -105,7 +105,11 @@ TEST_CASE("triangles are read from a .json file with a view if it has one") {
     fails(R"({"positions": [[0, 0, 1]], "indices": [[0, 1, 2]]})", "indices");
     fails(R"({"positions": [[0, 0, 1]], "indices": [[0, -1, 2]]})",
           "/indices/0/1: expected a whole number from 0 to 4294967295, found -1");
-    fails(R"({"positions": [], "colours": []})", "only the keys");
+    fails(R"({"positions": [[0, 0, 1]], "indices": [[0], [1]]})",
+          "x.json: /indices/1/0: expected less than 1, the number of positions, found 1");
+    fails(R"({"positions": [[0, 0, 1]]})", "/positions: expected three per triangle, as there are no indices, found 1");
+    fails(R"({"positions": [], "colours": []})",
+          "x.json: /: expected only the keys colors, indices, positions, projection, view, found 'colours'");
     fails(R"({"positions": [], "view": [1]})", "/view: expected an array of 16 numbers, found an array of 1");
 }
 
@@ -121,5 +125,6 @@ TEST_CASE("rows of two indices are lines and of one points") {
     CHECK(mesh("[[2], [0]]").indices == std::vector<std::uint32_t>{2, 2, 2, 0, 0, 0});
     CHECK(mesh("[]").primitive == pipeline::Primitive::triangles);
     CHECK_THROWS_WITH(mesh("[[0, 1], [2]]"), Catch::Contains("/indices/1: expected an array of 2 numbers"));
-    CHECK_THROWS_WITH(mesh("[[0, 1, 2, 0]]"), Catch::Contains("/indices/0: expected an array of 3 numbers"));
+    CHECK_THROWS_WITH(mesh("[[0, 1, 2, 0]]"),
+                      Catch::Contains("/indices/0: expected an array of 1, 2 or 3 numbers, found one of 4"));
 }

@@ -51,10 +51,9 @@ TEST_CASE("a scene without triangles is reported with a suggestion") {
     const Folder folder;
     const CommandResult one = run_strata(folder, {"scene", warned_scene(folder)});
     CHECK(one.status == 0);
-    CHECK(
-        one.err ==
-        "strata: warning: empty.gltf: nothing would be drawn, because the scene has no triangles; export its meshes as "
-        "triangles, or try a built-in scene: strata list scenes shows them\n");
+    CHECK(one.err ==
+          "strata: warning: empty.gltf: nothing would be drawn, because the scene has no triangles, lines or points; "
+          "export its meshes, or try a built-in scene: strata list scenes shows them\n");
     std::ofstream(folder / "three.gltf") << R"({"asset":{"version":"2.0"},"scenes":[{},{},{}]})";
     CHECK(run_strata(folder, {"scene", "three.gltf"})
               .err.ends_with("--scene N, 0 to 2, chooses another scene of the file\n"));
