@@ -53,6 +53,8 @@ struct Algorithm {
     bool traces_own_targets = false;  // its trace has the depths in its own sample's targets, not those of the sample
                                       // that it loads: losses cannot be counted where it loads another
     bool shows_depth_paths = false;   // the measurement of flicker draws it by every depth path
+    bool blends_in_picture = false;   // blends every layer straight into the picture: no colour that it stores needs an
+                                      // alpha
     bool has_published_form = false;  // the listing has errata: --formulation published runs it as printed
     int (*geometry_passes)(int layers) = nullptr;  // the formula; null if layers do not determine it
     void (*run)(pipeline::Region&) = nullptr;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/formats/half.h"
+#include "pipeline/formats/packed.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/numerics.h"
 
@@ -43,10 +44,12 @@ void for_each_difference(const Image& image, const Image& truth, Body&& body) {
 // The value of a code (pipeline/reference/formats.md 2.2 and 3.1). Depth and stencil images are not colours.
 double channel_value(const Image& image, int x, int y, int channel) {
     const std::uint32_t code = image.codes[image.index(x, y, channel)];
+    if (is_packed(image.format)) return double{packed_value(image.format, channel, code, HalfRounding::nearest_even)};
     switch (info(image.format).type) {
         case ChannelType::unorm8: return static_cast<double>(code) / 255.0;
         case ChannelType::half: return double{half_to_float(static_cast<std::uint16_t>(code))};
         case ChannelType::single: return double{std::bit_cast<float>(code)};
+        case ChannelType::unorm10:
         case ChannelType::depth:
         case ChannelType::stencil: break;
     }

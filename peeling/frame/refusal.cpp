@@ -44,6 +44,11 @@ std::optional<Refusal> check_formats(const Algorithm& algorithm, const FrameSetu
     if (options.back_format && !algorithm.takes_both_ends)
         return Refusal{"separate back format, because it composites from one end only", "",
                        "use dual or dual_independent", algorithm.name};
+    // A user's algorithm says itself what it keeps in its targets.
+    const bool keeps_alpha = !algorithm.blends_in_picture && !algorithm.body;
+    if (keeps_alpha && (setup.color_format == Format::r11g11b10f || options.back_format == Format::r11g11b10f))
+        return Refusal{"layers in r11g11b10f, which has no alpha", "",
+                       "use --result-format r11g11b10f, or painter, which blends into the picture", algorithm.name};
     return std::nullopt;
 }
 

@@ -7,6 +7,7 @@
 #include "peeling/as_shown.h"
 #include "peeling/audit/image_error.h"
 #include "pipeline/formats/convert.h"
+#include "pipeline/formats/packed.h"
 #include "pipeline/stages/blend.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
@@ -24,7 +25,7 @@ using Color = std::array<double, 4>;
 class ChainTarget {
   public:
     ChainTarget(const ChainScene& scene, const Chain& chain, Format format)
-        : profile_{scene.profile}, type_{chain.store ? ChannelType::single : info(format).type}, keeps_{chain.store} {}
+        : profile_{scene.profile}, format_{chain.store ? Format::rgba32f : format}, keeps_{chain.store} {}
 
     // Stored without blending and read again.
     [[nodiscard]] Color stored(const Color& color) const {
@@ -33,8 +34,9 @@ class ChainTarget {
     }
     // The value of a stored colour (image_error.h): 8-bit codes are k / 255 in binary64.
     [[nodiscard]] Color shown(const Color& color) const {
-        if (keeps_ || type_ != ChannelType::unorm8) return color;
+        if (keeps_ || info(format_).type != ChannelType::unorm8) return color;
         const Codes codes = codes_of(color);
+        if (is_packed(format_)) return values_of(codes);
         return {codes[0][0] / 255.0, codes[1][0] / 255.0, codes[2][0] / 255.0, codes[3][0] / 255.0};
     }
     // Blends a layer stored by a peel OVER the target; alpha is not written.
@@ -46,7 +48,7 @@ class ChainTarget {
         for (std::size_t c = 0; c < 4; ++c) values[c][0] = static_cast<float>(source[c]);
         Blend state = blend_mode::over;
         state.write_mask = 0x7;
-        blend(state, type_, profile_, 4, values, codes, 1);
+        blend_into(format_, state, profile_, values, codes, 1);
         target = values_of(codes);
     }
 
@@ -57,7 +59,10 @@ class ChainTarget {
         Codes codes{};
         for (std::size_t c = 0; c < 4; ++c) {
             const auto value = static_cast<float>(color[c]);
-            pipeline::scalar::encode(type_, profile_.half_rounding, &value, codes[c].data(), 1);
+            if (is_packed(format_))
+                codes[c][0] = packed_code(format_, static_cast<int>(c), value, profile_.color_rounding());
+            else
+                pipeline::scalar::encode(info(format_).type, profile_.half_rounding, &value, codes[c].data(), 1);
         }
         return codes;
     }
@@ -65,7 +70,10 @@ class ChainTarget {
         Color color{};
         for (std::size_t c = 0; c < 4; ++c) {
             float value = 0;
-            pipeline::scalar::decode(type_, codes[c].data(), &value, 1);
+            if (is_packed(format_))
+                value = packed_value(format_, static_cast<int>(c), codes[c][0], profile_.color_rounding());
+            else
+                pipeline::scalar::decode(info(format_).type, codes[c].data(), &value, 1);
             color[c] = double{value};
         }
         return color;
@@ -73,7 +81,7 @@ class ChainTarget {
     [[nodiscard]] Color rounded(const Color& color) const { return values_of(codes_of(color)); }
 
     const DeviceProfile& profile_;
-    ChannelType type_;
+    Format format_;
     bool keeps_;
 };
 

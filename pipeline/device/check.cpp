@@ -130,6 +130,10 @@ std::optional<Refusal> check(const DeviceProfile& profile, DepthFormat format) {
 std::optional<Refusal> check(const DeviceProfile& profile, Format target) {
     if (is_depth(target)) return check(profile, depth_format(target));
     const ChannelType type = info(target).type;
+    // Devices that blend float targets blend packed ones; r11g11b10f is itself a float format.
+    if (is_packed(target) && type != ChannelType::half && !has(profile, Feature::float_targets))
+        return Refusal{"blended colour format " + std::string{info(target).name}, "",
+                       way_out([](const DeviceProfile& p) { return p.has_float_targets; })};
     if (type == ChannelType::half || type == ChannelType::single) return check(profile, Feature::float_targets);
     if (is_narrow(target)) return check(profile, Feature::narrow_surfaces);
     return std::nullopt;

@@ -46,10 +46,11 @@ inline void decode(ChannelType type, const std::uint32_t* __restrict codes, floa
         case ChannelType::single:
             for (std::size_t i = 0; i < count; ++i) values[i] = std::bit_cast<float>(codes[i]);
             return;
+        case ChannelType::unorm10:
         case ChannelType::depth:
         case ChannelType::stencil: break;
     }
-    assert(!"depth and stencil targets have no colour channels");
+    assert(!"packed formats have packed.h; depth and stencil targets have no colour channels");
 }
 
 inline void encode(ChannelType type, ColorRounding rounding, const float* __restrict values,
@@ -68,10 +69,11 @@ inline void encode(ChannelType type, ColorRounding rounding, const float* __rest
         case ChannelType::single:
             for (std::size_t i = 0; i < count; ++i) codes[i] = std::bit_cast<std::uint32_t>(values[i]);
             return;
+        case ChannelType::unorm10:
         case ChannelType::depth:
         case ChannelType::stencil: break;
     }
-    assert(!"depth and stencil targets have no colour channels");
+    assert(!"packed formats have packed.h; depth and stencil targets have no colour channels");
 }
 
 }  // namespace scalar

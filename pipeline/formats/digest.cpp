@@ -69,6 +69,7 @@ namespace {
 int code_bytes(ChannelType type) noexcept {
     switch (type) {
         case ChannelType::unorm8: return 1;
+        case ChannelType::unorm10:
         case ChannelType::half: return 2;
         case ChannelType::single: return 4;
         case ChannelType::depth: return 4;

@@ -12,7 +12,8 @@ using rasterizer::DepthFormat;
 using rasterizer::DepthRounding;
 
 // Colour formats have 1, 2 or 4 channels. Depth and stencil have separate targets (d24s8 is a d24 and an s8). The
-// narrow formats of GeForce3's surfaces are stored as the 8-bit codes that the blender reads back (narrow.h).
+// narrow formats of GeForce3's surfaces are stored as the 8-bit codes that the blender reads back (narrow.h), the
+// packed ones as codes of equal value with the same width in all channels (packed.h).
 enum class Format : std::uint8_t {
     rgba8,
     rgba16f,
@@ -30,12 +31,15 @@ enum class Format : std::uint8_t {
     x1a7r8g8b8,
     r5g6b5,
     x1r5g5b5,
-    d24f
+    d24f,
+    srgb8_alpha8,
+    rgb10_a2,
+    r11g11b10f
 };
 
-// The meaning of a channel's code: k / 255, the bits of a half, the bits of a float, a depth code, or eight bits of
-// stencil.
-enum class ChannelType : std::uint8_t { unorm8, half, single, depth, stencil };
+// The meaning of a channel's code: k / 255, the bits of a half, the bits of a float, a depth code, eight bits of
+// stencil, or k / 1023.
+enum class ChannelType : std::uint8_t { unorm8, half, single, depth, stencil, unorm10 };
 
 struct FormatInfo {
     std::string_view name;
@@ -46,7 +50,7 @@ struct FormatInfo {
     int bytes_per_pixel;
 };
 
-// A narrow format is listed with four channels of unorm8 codes and the bytes per pixel of the device.
+// A narrow or packed format is listed with four channels of its codes' type and the bytes per pixel of the device.
 [[nodiscard]] constexpr FormatInfo info(Format format) noexcept {
     switch (format) {
         case Format::rgba8: return {"rgba8", ChannelType::unorm8, 4, 4};
@@ -65,6 +69,9 @@ struct FormatInfo {
         case Format::x8r8g8b8: return {"x8r8g8b8", ChannelType::unorm8, 4, 4};
         case Format::x1a7r8g8b8: return {"x1a7r8g8b8", ChannelType::unorm8, 4, 4};
         case Format::r5g6b5: return {"r5g6b5", ChannelType::unorm8, 4, 2};
+        case Format::srgb8_alpha8: return {"srgb8_alpha8", ChannelType::unorm8, 4, 4};
+        case Format::rgb10_a2: return {"rgb10_a2", ChannelType::unorm10, 4, 4};
+        case Format::r11g11b10f: return {"r11g11b10f", ChannelType::half, 4, 4};
         case Format::x1r5g5b5: break;
     }
     return {"x1r5g5b5", ChannelType::unorm8, 4, 2};
@@ -72,11 +79,15 @@ struct FormatInfo {
 
 [[nodiscard]] constexpr bool is_color(Format f) noexcept {
     const ChannelType t = info(f).type;
-    return t == ChannelType::unorm8 || t == ChannelType::half || t == ChannelType::single;
+    return t != ChannelType::depth && t != ChannelType::stencil;
 }
 // True for surfaces that store less than 8 bits of some channel, or no alpha.
 [[nodiscard]] constexpr bool is_narrow(Format f) noexcept {
     return f == Format::x8r8g8b8 || f == Format::x1a7r8g8b8 || f == Format::r5g6b5 || f == Format::x1r5g5b5;
+}
+// True for formats that pack a pixel into 32 bits of channels that differ in kind or width (packed.h).
+[[nodiscard]] constexpr bool is_packed(Format f) noexcept {
+    return f == Format::srgb8_alpha8 || f == Format::rgb10_a2 || f == Format::r11g11b10f;
 }
 [[nodiscard]] constexpr bool is_depth(Format f) noexcept { return info(f).type == ChannelType::depth; }
 [[nodiscard]] constexpr bool has_stencil(Format f) noexcept { return f == Format::d24s8 || f == Format::s8; }

@@ -8,6 +8,7 @@
 
 #include "pipeline/formats/convert.h"
 #include "pipeline/formats/narrow.h"
+#include "pipeline/formats/packed.h"
 #include "pipeline/formats/unorm8_product.h"
 #include "rasterizer/base/float_environment.h"
 
@@ -43,7 +44,10 @@ void ColorResolve::add(Image sample) {
     std::array<float, codes_at_once> values;
     const ChannelType type = info(sample.format).type;
     for_blocks_of_codes(sample.codes.size(), [&](std::size_t first, std::size_t count) {
-        if (type == ChannelType::unorm8)
+        if (is_packed(sample.format))
+            for (std::size_t i = 0; i < count; ++i)
+                values[i] = packed_value(sample.format, static_cast<int>((first + i) % 4), codes[first + i], rounding_);
+        else if (type == ChannelType::unorm8)
             for (std::size_t i = 0; i < count; ++i) values[i] = code_value(codes[first + i], rounding_.unorm);
         else
             scalar::decode(type, codes + first, values.data(), count);
@@ -65,7 +69,11 @@ Image ColorResolve::picture() && {
         const float share = 1.0f / static_cast<float>(samples_);
         for_blocks_of_codes(size, [&](std::size_t first, std::size_t count) {
             for (std::size_t i = 0; i < count; ++i) values[i] = std::bit_cast<float>(sums[first + i]) * share;
-            scalar::encode(info(sum_.format).type, rounding_, values.data(), sums + first, count);
+            if (is_packed(sum_.format))
+                for (std::size_t i = 0; i < count; ++i)
+                    sums[first + i] = packed_code(sum_.format, static_cast<int>((first + i) % 4), values[i], rounding_);
+            else
+                scalar::encode(info(sum_.format).type, rounding_, values.data(), sums + first, count);
         });
     }
     if (is_narrow(sum_.format))

@@ -25,7 +25,8 @@ class ColorResolve {
 
   private:
     [[nodiscard]] bool adds_codes() const noexcept {
-        return rule_ == ResolveRule::codes_half_up && info(sum_.format).type == ChannelType::unorm8;
+        return rule_ == ResolveRule::codes_half_up && info(sum_.format).type == ChannelType::unorm8 &&
+               !is_packed(sum_.format);
     }
 
     int samples_;

@@ -10,9 +10,9 @@
 #include "pipeline/device/check.h"
 #include "pipeline/formats/convert.h"
 #include "pipeline/formats/narrow.h"
+#include "pipeline/formats/packed.h"
 #include "pipeline/formats/resolve.h"
 #include "pipeline/formats/unorm8.h"
-#include "pipeline/formats/unorm8_product.h"
 #include "pipeline/fragments/tile_cache.h"
 #include "pipeline/frame/check_pass.h"
 #include "pipeline/frame/effects.h"
@@ -199,10 +199,11 @@ void Stages::load_target(TargetStorage& from, std::size_t read, const Lanes<std:
         return gather_codes(codes_in(from.depth_plane(0)), {elements.data(), static_cast<std::size_t>(count)},
                             &shared_.scratch.loads.depth_[read]);
     from.gather(elements, count, 0, shared_.scratch.codes);
-    decode_loaded(info(from.format()), read, count);
+    decode_loaded(from.format(), read, count);
 }
 
-void Stages::decode_loaded(const FormatInfo& format, std::size_t read, int count) {
+void Stages::decode_loaded(Format stored, std::size_t read, int count) {
+    const FormatInfo format = info(stored);
     for (std::size_t c = 0; c < 4; ++c) {
         Lanes<float>& values = shared_.scratch.loads.color_[read][c];
         const auto each = [&](auto value) {
@@ -212,7 +213,9 @@ void Stages::decode_loaded(const FormatInfo& format, std::size_t read, int count
         const UnormRounding unorm = shared_.profile().unorm_rounding;
         const HalfRounding half = shared_.profile().half_rounding;
         const bool is_there = c < static_cast<std::size_t>(format.channels);
-        if (is_there && format.type == ChannelType::unorm8 && unorm != UnormRounding::half_up)
+        if (is_there && is_packed(stored))
+            each([&](std::uint32_t code) { return packed_value(stored, static_cast<int>(c), code, {half, unorm}); });
+        else if (is_there && format.type == ChannelType::unorm8 && unorm != UnormRounding::half_up)
             each([&](std::uint32_t code) { return code_value(code, unorm); });
         else if (is_there && format.type == ChannelType::half && half == HalfRounding::no_infinity)
             each([&](std::uint32_t code) { return half_value(static_cast<std::uint16_t>(code), half); });
@@ -261,7 +264,7 @@ void Stages::load_resolved(TargetStorage& from, std::size_t read, const Fragment
     }
     Image mean = std::move(resolve).picture();
     for_each_code(mean, [](std::uint32_t stored, std::uint32_t& code) { code = stored; });
-    decode_loaded(info(format), read, batch.count);
+    decode_loaded(format, read, batch.count);
 }
 
 void Stages::run_program(const PassState& state, FragmentBatch& batch, Outputs& out,
@@ -368,7 +371,8 @@ void Stages::write_colors(const PassState& state, const FragmentBatch& batch, co
         const bool keeps_source =
             is_extra && !blending.enabled && format.type == ChannelType::unorm8;  // ONE and ZERO have the same result
         if (is_extra && !keeps_source) extra_blend(blending, batch, out.color[k], target, sample);
-        const bool adds_halves = shared_.frame.effects == Effects::needed && format.type == ChannelType::half &&
+        const bool adds_halves = shared_.frame.effects == Effects::needed && !is_packed(target.format()) &&
+                                 format.type == ChannelType::half &&
                                  shared_.profile().half_rounding == HalfRounding::nearest_even &&
                                  blending == blend_mode::sum;
         if (adds_halves && target.add(batch.pixel, alive, batch.count, sample, out.color[k],
@@ -378,7 +382,7 @@ void Stages::write_colors(const PassState& state, const FragmentBatch& batch, co
         if (used.enabled || blending.write_mask != 0xf || shared_.frame.effects == Effects::all)
             target.gather(batch.pixel, batch.count, sample, shared_.scratch.codes);
         const ColorLanes& source = blended_source(target.format(), out.color[k], shared_.scratch.texel, batch.count);
-        blend(used, format.type, shared_.profile(), format.channels, source, shared_.scratch.codes, batch.count);
+        blend_into(target.format(), used, shared_.profile(), source, shared_.scratch.codes, batch.count);
         if (is_narrow(target.format())) narrow(target.format(), shared_.scratch.codes, batch.count);
         target.scatter(batch.pixel, alive, batch.count, sample, blending.write_mask, shared_.scratch.codes);
     }

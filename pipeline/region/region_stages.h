@@ -68,7 +68,7 @@ class Stages {
     [[nodiscard]] LoadedSample loaded_sample() const noexcept;
     [[nodiscard]] Lanes<std::uint32_t> elements_of(const FragmentBatch& batch, std::size_t sample) const noexcept;
     void load_resolved(TargetStorage& from, std::size_t read, const FragmentBatch& batch);
-    void decode_loaded(const FormatInfo& format, std::size_t read, int count);
+    void decode_loaded(Format stored, std::size_t read, int count);
     void load_target(TargetStorage& from, std::size_t read, const Lanes<std::uint32_t>& elements, int count);
     // SAMPLE_ALPHA_TO_COVERAGE, SAMPLE_COVERAGE and the sample mask (pipeline/reference/fragment-stages.md 13.6).
     void cover_samples(const PassState& state, const FragmentBatch& batch, Outputs& out);

@@ -13,6 +13,7 @@
 #include "pipeline/formats/convert.h"
 #include "pipeline/formats/half.h"
 #include "pipeline/formats/image_texels.h"
+#include "pipeline/formats/packed.h"
 #include "pipeline/formats/resolve.h"
 #include "pipeline/formats/unorm8.h"
 #include "pipeline/formats/unorm8_product.h"
@@ -71,7 +72,7 @@ FoundPixels pixels_where(const TargetStorage& storage, const RegionShared& share
         for (int sample = 0; sample < storage.samples(); ++sample) {
             const Texels texels = storage.texels(sample);
             for (std::size_t word = 0; word < texels.words(); ++word)
-                is_found |= holds(texels.plane(word).words[element]);
+                is_found |= holds(texels.plane(word).words[element], word);
         }
         if (!is_found) continue;
         ++found.elements;
@@ -220,7 +221,8 @@ Rgba Targets::color(Target target, std::uint32_t element, int own_sample) const 
     for (int c = 0; c < format.channels; ++c) {
         const std::uint32_t code = from.code(element, c, own_sample);
         color[static_cast<std::size_t>(c)] =
-            format.type == ChannelType::unorm8 ? code_value(code, shared_.profile().unorm_rounding)
+            is_packed(from.format()) ? packed_value(from.format(), c, code, shared_.profile().color_rounding())
+            : format.type == ChannelType::unorm8 ? code_value(code, shared_.profile().unorm_rounding)
             : format.type == ChannelType::half
                 ? half_value(static_cast<std::uint16_t>(code), shared_.profile().half_rounding)
                 : std::bit_cast<float>(code);
@@ -314,10 +316,13 @@ void Targets::report_overflow(Target published) const {
         };
         if (type == ChannelType::single || rounding != HalfRounding::no_infinity)
             report(Fault::non_finite_target, " holds infinity or NaN",
-                   [&](Word word) { return holds_non_finite(word, type); });
-        if (type == ChannelType::half && greatest != 0)
+                   [&](Word word, std::size_t) { return holds_non_finite(word, type); });
+        if (type == ChannelType::half && greatest != 0 && !is_packed(storage.format()))
             report(Fault::half_saturated, " holds the greatest half: its sums have stopped growing",
-                   [&](Word word) { return holds_half(word, greatest); });
+                   [&](Word word, std::size_t) { return holds_half(word, greatest); });
+        if (is_packed(storage.format()) && type == ChannelType::half)
+            report(Fault::half_saturated, " holds the greatest number of r11g11b10f: its sums have stopped growing",
+                   [&](Word word, std::size_t place) { return holds_half(word, place == 0 ? 0x7bf0 : 0x7be0); });
     }
 }
 

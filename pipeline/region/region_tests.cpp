@@ -266,9 +266,8 @@ void Stages::extra_blend(const Blend& blending, const FragmentBatch& batch, cons
                          const TargetStorage& target, int sample) {
     Blend again = blending;
     again.enabled = true;
-    const FormatInfo format = info(target.format());
     target.gather(batch.pixel, batch.count, sample, shared_.scratch.extra_codes);
-    blend(again, format.type, shared_.profile(), format.channels, color, shared_.scratch.extra_codes, batch.count);
+    blend_into(target.format(), again, shared_.profile(), color, shared_.scratch.extra_codes, batch.count);
 }
 
 }  // namespace strata::pipeline

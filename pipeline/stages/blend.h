@@ -3,12 +3,15 @@
 // Rule     R = s F + d G, s F - d G, d G - s F, min(s, d) or max(s, d); MIN and MAX ignore the factors. RGB and alpha
 //          have separate terms. Without an alpha channel, destination alpha is 1. With blending off the source replaces
 //          the destination, converted once. The arithmetic of 8-bit targets is in blend_unorm8.h, that of fp16 and
-//          binary32 targets in blend_float.h.
-// Source   pipeline/reference/fragment-stages.md 8 and 9 (GL 2.1 4.1.8 and table 4.1; D3D 11.3 17.1 and 17.5).
+//          binary32 targets in blend_float.h. A packed target (packed.h) is blended as binary32: its codes are read as
+//          values, so that sRGB colours are blended in linear light, and the result is rounded to codes once. Where
+//          codes are those of 0 to 1, source and constant are clamped before.
+// Source   pipeline/reference/fragment-stages.md 8 and 9 (GL 2.1 4.1.8 and table 4.1; D3D 11.3 17.1 and 17.5; packed:
+//          GL 4.6 core 17.3.6, D3D 11.3 17.6).
 // Cost     Terms that papers use run in one loop (blend_kernels.h), compiled once per instruction set; the others first
 //          fill two arrays of factors.
 // Tests    tests/pipeline/stages/blend_unorm8_test.cpp, tests/pipeline/stages/blend_float_test.cpp,
-//          tests/pipeline/stages/simd_stages_test.cpp
+//          tests/pipeline/stages/simd_stages_test.cpp, tests/pipeline/stages/blend_packed_test.cpp
 #pragma once
 #include <array>
 #include <cstdint>
@@ -26,5 +29,10 @@ namespace strata::pipeline {
 void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels,
            const std::array<rasterizer::Lanes<float>, 4>& src, std::array<rasterizer::Lanes<std::uint32_t>, 4>& codes,
            int count) noexcept;
+
+// The blend of a target of this format, packed or not; a narrow one stores its codes by narrow.h afterwards.
+void blend_into(Format format, const Blend& state, const DeviceProfile& profile,
+                const std::array<rasterizer::Lanes<float>, 4>& src,
+                std::array<rasterizer::Lanes<std::uint32_t>, 4>& codes, int count) noexcept;
 
 }  // namespace strata::pipeline

@@ -42,6 +42,7 @@ using HalfWords = scalar::PlainHalves;
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "pipeline/formats/packed.h"
 #include "rasterizer/base/simd_dispatch.h"
 
 namespace strata::pipeline {
@@ -53,6 +54,71 @@ void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, i
     if (simd_is_scalar())
         return scalar::blend(state, type, profile, channels, src, codes, static_cast<std::size_t>(count));
     kernel_of(HWY_DISPATCH_TABLE(blend_lanes))(state, type, profile, channels, src, codes, count);
+}
+
+namespace {
+
+// Mesa's llvmpipe: rgb10_a2 in codes of 16 bits.
+bool blends_in_16_bits(Format format, const DeviceProfile& profile) noexcept {
+    return format == Format::rgb10_a2 && profile.unorm_rounding == UnormRounding::product_even &&
+           profile.blend_storage == BlendStorage::target;
+}
+
+void blend_unorm16(const Blend& state, const scalar::ColorLanes& src, scalar::ColorCodes& codes, int count) noexcept {
+    const auto lanes = static_cast<std::size_t>(count);
+    const auto wide = [](float x) { return static_cast<float>(to_unorm_code(x, 65535, UnormRounding::product_even)); };
+    alignas(64) scalar::ColorLanes s, d;
+    std::array<float, 4> constant{};
+    for (int channel = 0; channel < 4; ++channel) {
+        const auto c = static_cast<std::size_t>(channel);
+        constant[c] = wide(state.constant[c]);
+        for (std::size_t i = 0; i < lanes; ++i) {
+            s[c][i] = wide(src[c][i]);
+            d[c][i] = state.enabled ? static_cast<float>(widened_to_16(channel, codes[c][i])) : 0.0f;
+        }
+    }
+    const auto keep = [&](std::size_t c, const rasterizer::Lanes<float>& out) {
+        for (std::size_t i = 0; i < lanes; ++i)
+            codes[c][i] = shortened_from_16(static_cast<int>(c), static_cast<std::uint32_t>(out[i]));
+    };
+    Blend used = state;
+    if (!state.enabled) used.color = used.alpha = BlendTerm{};  // ONE and ZERO
+    scalar::blend_channels<Unorm16Arithmetic>({used, 4, src, codes, lanes}, constant, s, d, keep);
+}
+
+void blend_packed(Format format, const Blend& state, const DeviceProfile& profile, const scalar::ColorLanes& src,
+                  scalar::ColorCodes& codes, int count) noexcept {
+    const ColorRounding rounding = profile.color_rounding();
+    const auto lanes = static_cast<std::size_t>(count);
+    const bool clamps = info(format).type != ChannelType::half;
+    Blend used = state;
+    scalar::ColorLanes source{};
+    scalar::ColorCodes words{};
+    for (int channel = 0; channel < 4; ++channel) {
+        const auto c = static_cast<std::size_t>(channel);
+        if (clamps) used.constant[c] = unorm_clamped(state.constant[c]);
+        for (std::size_t i = 0; i < lanes; ++i) {
+            source[c][i] = clamps ? unorm_clamped(src[c][i]) : src[c][i];
+            if (state.enabled)
+                words[c][i] = std::bit_cast<std::uint32_t>(packed_value(format, channel, codes[c][i], rounding));
+        }
+    }
+    blend(used, ChannelType::single, profile, 4, source, words, count);
+    for (int channel = 0; channel < 4; ++channel) {
+        const auto c = static_cast<std::size_t>(channel);
+        if ((state.write_mask >> channel & 1u) == 0) continue;
+        for (std::size_t i = 0; i < lanes; ++i)
+            codes[c][i] = packed_code(format, channel, std::bit_cast<float>(words[c][i]), rounding);
+    }
+}
+
+}  // namespace
+
+void blend_into(Format format, const Blend& state, const DeviceProfile& profile, const scalar::ColorLanes& src,
+                scalar::ColorCodes& codes, int count) noexcept {
+    if (blends_in_16_bits(format, profile)) return blend_unorm16(state, src, codes, count);
+    if (is_packed(format)) return blend_packed(format, state, profile, src, codes, count);
+    blend(state, info(format).type, profile, info(format).channels, src, codes, count);
 }
 
 }  // namespace strata::pipeline

@@ -79,5 +79,31 @@ struct Unorm8Arithmetic {
     }
 };
 
+// The arithmetic of codes of k / 65535, in which Mesa's llvmpipe blends rgb10_a2: as BlendRounding::each_product.
+struct Unorm16Arithmetic {
+    static constexpr float zero = 0.0f, one = 65535.0f;
+
+    [[nodiscard]] static constexpr float one_minus(float x) noexcept { return one - x; }
+    [[nodiscard]] static constexpr float lesser(float a, float b) noexcept { return a < b ? a : b; }
+    // (a b + a b / 65536 + 1/2) / 65536: below 2^32.
+    [[nodiscard]] static constexpr float product(float a, float b) noexcept {
+        const std::uint32_t ab = static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(b);
+        return static_cast<float>((ab + (ab >> 16) + 32768u) >> 16);
+    }
+
+    template <BlendEquation equation, bool keeps_s = false, bool keeps_d = false>
+    [[nodiscard]] static constexpr float combine(float s, float F, float d, float G) noexcept {
+        if constexpr (equation == BlendEquation::min) return lesser(s, d);
+        if constexpr (equation == BlendEquation::max) return s > d ? s : d;
+        if constexpr (equation == BlendEquation::signed_add || equation == BlendEquation::signed_reverse_subtract)
+            return d;
+        const float source = product(s, F), destination = product(d, G);
+        const float sum = equation == BlendEquation::add        ? source + destination
+                          : equation == BlendEquation::subtract ? source - destination
+                                                                : destination - source;
+        return sum < 0.0f ? 0.0f : sum > one ? one : sum;
+    }
+};
+
 }  // namespace strict
 }  // namespace strata::pipeline

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "pipeline/formats/narrow.h"
+#include "pipeline/formats/packed.h"
 #include "pipeline/formats/unorm8.h"
 
 namespace strata::pipeline {
@@ -13,12 +14,17 @@ namespace strata::pipeline {
 std::array<std::uint32_t, 4> color_codes(Format format, ColorRounding rounding, const Rgba& color) {
     std::array<std::uint32_t, 4> codes{};
     for (std::size_t c = 0; c < 4; ++c) {
+        if (is_packed(format)) {
+            codes[c] = packed_code(format, static_cast<int>(c), color[c], rounding);
+            continue;
+        }
         switch (info(format).type) {
             case ChannelType::unorm8:
                 codes[c] = narrowed(format, static_cast<int>(c), to_unorm8(color[c], rounding.unorm));
                 break;
             case ChannelType::half: codes[c] = to_half(color[c], rounding.half); break;
             case ChannelType::single: codes[c] = std::bit_cast<std::uint32_t>(color[c]); break;
+            case ChannelType::unorm10:
             case ChannelType::depth:
             case ChannelType::stencil: break;
         }
@@ -32,6 +38,7 @@ int bits_per_channel(ChannelType type) noexcept {
     switch (type) {
         case ChannelType::unorm8:
         case ChannelType::stencil: return 8;
+        case ChannelType::unorm10:
         case ChannelType::half: return 16;
         case ChannelType::single:
         case ChannelType::depth: break;

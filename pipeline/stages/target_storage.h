@@ -22,8 +22,8 @@ using TargetWords = UninitializedVector<std::uint32_t>;
 
 // Planes of 32-bit words, row-major, so that kernels read and write any pixels of a batch by vector, whatever the
 // format. A colour pixel has one word in rgba8, two in rgba16f (r g, b a) and rg32f, four in rgba32f, one in r16f and
-// r32f; depth and stencil codes have one word each. Samples are consecutive, each with its planes. All codes are
-// initially 0.
+// r32f; depth and stencil codes have one word each. rgb10_a2 and r11g11b10f have the words of rgba16f. Samples are
+// consecutive, each with its planes. All codes are initially 0.
 class TargetStorage {
   public:
     // `memory` is reused from a released target, if there is one.

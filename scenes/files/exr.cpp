@@ -30,10 +30,11 @@ using pipeline::Image;
 
 constexpr std::string_view channel_names[4] = {"R", "G", "B", "A"};
 
-// True for premultiplied half and binary32 targets, whose codes are the values that viewers need. A unorm8 code is an
+// True for premultiplied half and binary32 targets, whose codes are the values that viewers need. Another code is an
 // integer and not a channel's value.
 bool values_are_codes(const OutputColor& image) noexcept {
-    return image.premultiplied && pipeline::info(image.color.format).type != ChannelType::unorm8;
+    const ChannelType type = pipeline::info(image.color.format).type;
+    return image.premultiplied && (type == ChannelType::half || type == ChannelType::single);
 }
 
 // The channels in the order of their bytes in a pixel; append_pixel() below writes them in this order.
@@ -107,8 +108,9 @@ class ExrRows {
 
     // Alpha, and colours without alpha, are unchanged. One multiplication, rounded once.
     [[nodiscard]] float premultiplied(const std::uint32_t* codes, int c, int channels) const noexcept {
-        const float v = channel_value(type_, codes[c]);
-        return image_.premultiplied || channels < 4 || c == 3 ? v : v * channel_value(type_, codes[3]);
+        const pipeline::Format format = image_.color.format;
+        const float v = blended_value(format, c, codes[c]);
+        return image_.premultiplied || channels < 4 || c == 3 ? v : v * blended_value(format, 3, codes[3]);
     }
 
     const OutputColor& image_;

@@ -10,8 +10,10 @@
 
 namespace strata::scenes {
 
-// The value of a colour code: k / 255, or the value of the half or float, whose NaN payload may be lost.
+// The value of a colour code: k / 255, k / 1023, or the value of the half or float, whose NaN payload may be lost.
 [[nodiscard]] float channel_value(pipeline::ChannelType type, std::uint32_t code) noexcept;
+// The value that is blended: linear for the colours of srgb8_alpha8, else channel_value.
+[[nodiscard]] float blended_value(pipeline::Format format, int channel, std::uint32_t code) noexcept;
 
 // Writes one file: `write` returns "", or an error message. Throws SystemError, with the system's reason if there is
 // one.

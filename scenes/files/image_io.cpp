@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "pipeline/formats/half.h"
+#include "pipeline/formats/srgb.h"
 #include "pipeline/formats/unorm8.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
@@ -26,8 +27,14 @@ ImageFile image_file(const std::string& path) {
 // A code is in the low 8, 16 or 32 bits of its word, depending on the type.
 float channel_value(pipeline::ChannelType type, std::uint32_t code) noexcept {
     if (type == pipeline::ChannelType::unorm8) return pipeline::from_unorm8(static_cast<std::uint8_t>(code));
+    if (type == pipeline::ChannelType::unorm10) return static_cast<float>(code) / 1023.0f;
     if (type == pipeline::ChannelType::half) return pipeline::half_to_float(static_cast<std::uint16_t>(code));
     return std::bit_cast<float>(code);
+}
+
+float blended_value(pipeline::Format format, int channel, std::uint32_t code) noexcept {
+    if (format == pipeline::Format::srgb8_alpha8 && channel < 3) return pipeline::srgb_to_linear[code & 0xffu];
+    return channel_value(pipeline::info(format).type, code);
 }
 
 void write_with(const std::string& path, const std::function<std::string(const ByteSink& sink)>& write) {

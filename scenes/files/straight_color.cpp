@@ -33,14 +33,20 @@ void convert_codes(const std::uint32_t* from, std::uint32_t* to, bool premultipl
     to[3] = alpha;
 }
 
-// The conversion of values, for half and binary32 targets and for the linear space. Alpha is a coverage and never
-// sRGB-encoded.
-void convert_values(const std::uint32_t* from, std::uint32_t* to, ChannelType type, const OutputColor& image) noexcept {
-    const float alpha = channel_value(type, from[3]);
+// The colours of srgb8_alpha8 are decoded to linear light whatever the frame's space is.
+bool is_linear(const OutputColor& image) noexcept {
+    return image.space == ColorSpace::linear || image.color.format == Format::srgb8_alpha8;
+}
+
+// The conversion of values, for packed, half and binary32 targets and for the linear space. Alpha is a coverage and
+// never sRGB-encoded.
+void convert_values(const std::uint32_t* from, std::uint32_t* to, const OutputColor& image) noexcept {
+    const Format format = image.color.format;
+    const float alpha = blended_value(format, 3, from[3]);
     for (int c = 0; c < 3; ++c) {
-        float v = channel_value(type, from[c]);
+        float v = blended_value(format, c, from[c]);
         if (image.premultiplied) v = alpha > 0 ? v / alpha : 0.0f;
-        to[c] = image.space == ColorSpace::linear ? encode_srgb8(v) : pipeline::to_unorm8(v);
+        to[c] = is_linear(image) ? encode_srgb8(v) : pipeline::to_unorm8(v);
     }
     to[3] = pipeline::to_unorm8(alpha);
 }
@@ -53,14 +59,14 @@ Image as_straight_rgba8(const OutputColor& image) {
     assert(color.channels() == 4 && color.samples == 1);
     const ChannelType type = pipeline::info(color.format).type;
     // An rgba8 target of a linear frame has linear codes and must be encoded like any other.
-    const bool copies_codes = type == ChannelType::unorm8 && image.space == ColorSpace::encoded;
+    const bool copies_codes = type == ChannelType::unorm8 && !is_linear(image);
     Image result{Format::rgba8, color.width, color.height};
     // Red, green, blue and alpha are four consecutive codes per pixel.
     for (std::size_t i = 0; i < color.codes.size(); i += 4) {
         if (copies_codes)
             convert_codes(&color.codes[i], &result.codes[i], image.premultiplied);
         else
-            convert_values(&color.codes[i], &result.codes[i], type, image);
+            convert_values(&color.codes[i], &result.codes[i], image);
     }
     return result;
 }

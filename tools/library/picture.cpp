@@ -79,6 +79,7 @@ std::size_t channel_bytes(const Image& image) noexcept {
     switch (pipeline::info(image.format).type) {
         case pipeline::ChannelType::unorm8:
         case pipeline::ChannelType::stencil: return 1;
+        case pipeline::ChannelType::unorm10:
         case pipeline::ChannelType::half: return 2;
         case pipeline::ChannelType::depth: return pipeline::info(image.format).bytes_per_pixel == 2 ? 2 : 4;
         case pipeline::ChannelType::single: break;

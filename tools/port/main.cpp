@@ -78,6 +78,7 @@ int run(PortOptions options) {
                                                                        : "smooth";
     }
     set_window(pack.size, settings, pack.zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
+    if (pack.formats.color == srgb8) glEnable(GL_FRAMEBUFFER_SRGB);
     const GpuScene scene(pack.mesh, pack.size, settings);
     std::vector<Candidate> candidates;
     for (const std::string& name : algorithms) {

@@ -18,7 +18,9 @@ inline const std::vector<Choice<pipeline::DepthFormat>> depth_formats{{"d16", pi
                                                                       {"d24f", pipeline::DepthFormat::d24f}};
 
 inline const std::vector<Choice<pipeline::Format>> color_formats{
-    {"rgba8", pipeline::Format::rgba8}, {"rgba16f", pipeline::Format::rgba16f}, {"rgba32f", pipeline::Format::rgba32f}};
+    {"rgba8", pipeline::Format::rgba8},       {"rgba16f", pipeline::Format::rgba16f},
+    {"rgba32f", pipeline::Format::rgba32f},   {"srgb8_alpha8", pipeline::Format::srgb8_alpha8},
+    {"rgb10_a2", pipeline::Format::rgb10_a2}, {"r11g11b10f", pipeline::Format::r11g11b10f}};
 
 inline const std::vector<Choice<pipeline::Format>> count_formats{{"r16f", pipeline::Format::r16f},
                                                                  {"r32f", pipeline::Format::r32f}};

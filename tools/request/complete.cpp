@@ -81,6 +81,16 @@ std::optional<OptionConflict> option_conflict(const PictureRequest& request) {
     return std::nullopt;
 }
 
+std::optional<std::string> light_conflict(const peeling::RenderOptions& options, pipeline::ColorSpace space) {
+    const auto is_srgb = [](const std::optional<pipeline::Format>& format) {
+        return format == pipeline::Format::srgb8_alpha8;
+    };
+    const bool encodes =
+        is_srgb(options.color_format) || is_srgb(options.result_format) || is_srgb(options.back_format);
+    if (!encodes || space == pipeline::ColorSpace::linear) return std::nullopt;
+    return "expected linear with a target of srgb8_alpha8, which encodes what is blended, found encoded";
+}
+
 void complete(PictureRequest& request, const pipeline::DeviceProfile& profile) {
     take_clip_convention(request, profile);
     take_interpolation(request);

@@ -16,6 +16,11 @@ struct OptionConflict {
 };
 [[nodiscard]] std::optional<OptionConflict> option_conflict(const PictureRequest& request);
 
+// A frame whose colours are encoded twice: an srgb8_alpha8 target encodes linear light. The sentence follows
+// "--color-space: ".
+[[nodiscard]] std::optional<std::string> light_conflict(const peeling::RenderOptions& options,
+                                                        pipeline::ColorSpace space);
+
 // Sets what depends on several options or on the profile: the clip convention, where programs are evaluated, the
 // position of --sample, and the background of the frame, premultiplied and in the frame's colour space. Throws Refused
 // if the profile lacks the number of samples of --sample.

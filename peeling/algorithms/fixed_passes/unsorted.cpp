@@ -44,6 +44,7 @@ std::vector<Algorithm> entries() {
                       .pass_formula = "1",
                       .ties = TiePolicy::none,
                       .key = DepthKey::stored_code,
+                      .blends_in_picture = true,
                       .geometry_passes = one_pass,
                       .run = run},
             Algorithm{.name = "painter",
@@ -55,6 +56,7 @@ std::vector<Algorithm> entries() {
                       .ties = TiePolicy::last,
                       .key = DepthKey::stored_code,
                       .order = ListOrder::back_to_front,
+                      .blends_in_picture = true,
                       .geometry_passes = one_pass,
                       .run = run}};
 }

@@ -41,6 +41,29 @@ const std::string no_programs =
 
 }  // namespace
 
+TEST_CASE("packed colours are refused without blended float targets and without an alpha where layers are stored") {
+    RenderOptions options = options_for(one_fragment());
+    for (const auto& [format, name] :
+         {std::pair{Format::srgb8_alpha8, "srgb8_alpha8"}, std::pair{Format::rgb10_a2, "rgb10_a2"}}) {
+        options.color_format = format;
+        CHECK(refusal_message({"geforce3", "depth_units"}, options) ==
+              std::string{"profile geforce3 has no blended colour format "} + name +
+                  "; use geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, softpipe, swiftshader or direct3d11");
+        CHECK(refusal_message({"geforce8_dx101", "dual"}, options).empty());
+    }
+    options.color_format = Format::r11g11b10f;
+    CHECK(refusal_message({"geforce3", "unsorted"}, options) == no_float);
+    CHECK(refusal_message({"geforce8_dx101", "dual"}, options) ==
+          "algorithm dual has no layers in r11g11b10f, which has no alpha; use --result-format r11g11b10f, or painter, "
+          "which blends into the picture");
+    CHECK(refusal_message({"geforce8_dx101", "painter"}, options).empty());
+    options.color_format.reset();
+    options.result_format = Format::r11g11b10f;
+    for (const auto& algorithm : strata::peeling::algorithms())
+        if (refusal_message({"geforce8_dx101", algorithm.name}).empty())
+            CHECK(refusal_message({"geforce8_dx101", algorithm.name}, options).empty());
+}
+
 TEST_CASE("the table of algorithms and profiles is that of devices.md 10") {
     for (const DeviceProfile& profile : builtin_profiles())
         for (const auto& algorithm : strata::peeling::algorithms()) {

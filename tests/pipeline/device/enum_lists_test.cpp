@@ -39,6 +39,6 @@ TEST_CASE("every format or fault or vertex path or feature has a unique name") {
         CHECK(words.insert(refusal->feature).second);
         CHECK(has(*find_profile("ideal"), feature) == !check(*find_profile("ideal"), feature));
     }
-    CHECK(enum_values<Format>.size() == 17);
+    CHECK(enum_values<Format>.size() == 20);
     CHECK(enum_values<Feature>.size() == 18);
 }

@@ -20,7 +20,7 @@ struct FormatRow {
     const char* name;
     ChannelType type;
     int channels, bytes;
-    const char* traits;  // c colour, n narrow, d depth, s stencil
+    const char* traits;  // c colour, n narrow, p packed, d depth, s stencil
 };
 
 constexpr FormatRow format_rows[] = {
@@ -41,6 +41,9 @@ constexpr FormatRow format_rows[] = {
     {Format::r5g6b5, "r5g6b5", ChannelType::unorm8, 4, 2, "cn"},
     {Format::x1r5g5b5, "x1r5g5b5", ChannelType::unorm8, 4, 2, "cn"},
     {Format::d24f, "d24f", ChannelType::depth, 1, 4, "d"},
+    {Format::srgb8_alpha8, "srgb8_alpha8", ChannelType::unorm8, 4, 4, "cp"},
+    {Format::rgb10_a2, "rgb10_a2", ChannelType::unorm10, 4, 4, "cp"},
+    {Format::r11g11b10f, "r11g11b10f", ChannelType::half, 4, 4, "cp"},
 };
 
 [[nodiscard]] bool has_trait(const FormatRow& row, char trait) {
@@ -62,6 +65,7 @@ TEST_CASE("each format has the listed name and size and is of the kind that its 
         CHECK(found.bytes_per_pixel == row.bytes);
         CHECK(is_color(row.format) == has_trait(row, 'c'));
         CHECK(is_narrow(row.format) == has_trait(row, 'n'));
+        CHECK(is_packed(row.format) == has_trait(row, 'p'));
         CHECK(is_depth(row.format) == has_trait(row, 'd'));
         CHECK(has_stencil(row.format) == has_trait(row, 's'));
         CHECK(names.insert(found.name).second);
@@ -139,9 +143,8 @@ TEST_CASE("a digest changes with any code and its position and every number of t
 TEST_CASE("a code contributes as many bytes to the digest as its format stores") {
     for (const FormatRow& row : format_rows) {
         INFO(row.name);
-        const int bytes = row.type == ChannelType::half                                       ? 2
-                          : row.type == ChannelType::single || row.type == ChannelType::depth ? 4
-                                                                                              : 1;
+        const bool is_short = row.type == ChannelType::half || row.type == ChannelType::unorm10;
+        const int bytes = is_short ? 2 : row.type == ChannelType::single || row.type == ChannelType::depth ? 4 : 1;
         const auto with_bit = [&](int bit) {
             Image image{row.format, 2, 2};
             image.codes[1] = 1u << bit;

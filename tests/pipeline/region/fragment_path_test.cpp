@@ -17,21 +17,22 @@ using namespace strata::testing;
 using namespace strata::pipeline;
 using strata::rasterizer::Rect;
 
-constexpr int width = 16, height = 8;
+constexpr int path_width = 16, path_height = 8;
 constexpr std::uint32_t last_code = 0xffffff;
 
 // s and t of a unit are the window position with y up, offset by (dx, dy) texels; r and q are given by rows of the clip
 // position.
 CoordinateUnit screen_aligned(double dx, double dy, const Plane4& r) {
     CoordinateUnit unit{.enabled = true, .gen = eye_position()};
-    unit.matrix = product(translation(dx + width / 2.0, dy + height / 2.0, 0), scaling(width / 2.0, height / 2.0, 1));
+    unit.matrix = product(translation(dx + path_width / 2.0, dy + path_height / 2.0, 0),
+                          scaling(path_width / 2.0, path_height / 2.0, 1));
     for (std::size_t c = 0; c < 4; ++c) unit.matrix[c][2] = r[c];
     return unit;
 }
 
 // A few layers on every pixel, at window depths k / 64.
 FragmentScene layers(std::uint64_t seed) {
-    FragmentScene scene{width, height};
+    FragmentScene scene{path_width, path_height};
     Random random{seed};
     for (GivenPixel& pixel : scene.pixels)
         for (int i = random_int(random, 0, 4); i-- > 0;)
@@ -95,7 +96,7 @@ struct Peel {
 TestFrame frame_of(const FragmentScene& scene, double dx, double dy, std::size_t unit = 3) {
     CoordinateUnits units{};
     units[unit] = screen_aligned(dx, dy, depth_row());
-    return TestFrame{draw_list(scene), {}, width, height, "geforce3", 8, units};
+    return TestFrame{draw_list(scene), {}, path_width, path_height, "geforce3", 8, units};
 }
 
 }  // namespace
@@ -152,7 +153,7 @@ TEST_CASE("a frame that declares that it needs all of its pixels runs literally"
 }
 
 TEST_CASE("a replaced depth is used by depth test and buffer and a rejected fragment leaves nothing") {
-    FragmentScene scene{width, height};
+    FragmentScene scene{path_width, path_height};
     for (GivenPixel& pixel : scene.pixels) pixel.fragments.push_back({0.05f, {1, 1, 1, 1}});
     CoordinateUnits units{};
     for (const std::size_t u : {0u, 1u, 2u}) units[u] = {.enabled = true, .gen = eye_position()};
@@ -161,7 +162,7 @@ TEST_CASE("a replaced depth is used by depth test and buffer and a rejected frag
     units[1].matrix[3][2] = 0x1p19;
     units[2].matrix = Matrix(0.0);  // r2 = w
     units[2].matrix[3][2] = 1;
-    TestFrame test{draw_list(scene), {}, width, height, "geforce3", 8, units};
+    TestFrame test{draw_list(scene), {}, path_width, path_height, "geforce3", 8, units};
     HiloTexture zero;
     zero.texels = {{0, 0}};
     FragmentPath path;
@@ -186,10 +187,10 @@ TEST_CASE("a replaced depth is used by depth test and buffer and a rejected frag
         CHECK(state.replaces_depth);
         static_cast<void>(region.draw(state, program));
         std::size_t wrong = 0, drawn = 0;
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) {
-                const auto p = static_cast<std::size_t>(y * width + x);
-                const double clip_x = (x + 0.5) / (width / 2.0) - 1.0, expected = 0x1p20 * clip_x + 0x1p19;
+        for (int y = 0; y < path_height; ++y)
+            for (int x = 0; x < path_width; ++x) {
+                const auto p = static_cast<std::size_t>(y * path_width + x);
+                const double clip_x = (x + 0.5) / (path_width / 2.0) - 1.0, expected = 0x1p20 * clip_x + 0x1p19;
                 const bool kept = expected >= near * double{last_code} && expected <= far * double{last_code};
                 wrong += region.storage(depth).depth(0)[p] != (kept ? static_cast<std::uint32_t>(expected) : last_code);
                 wrong += region.storage(layer).code(p, 0, 0) != (kept ? 255u : 0u);
@@ -197,7 +198,7 @@ TEST_CASE("a replaced depth is used by depth test and buffer and a rejected frag
             }
         INFO("depth range " << near << " to " << far);
         CHECK(wrong == 0);
-        CHECK(drawn == (near > 0 ? 8u : far < 1 ? 8u : 12u) * height);
+        CHECK(drawn == (near > 0 ? 8u : far < 1 ? 8u : 12u) * path_height);
     }
 }
 
@@ -245,11 +246,11 @@ TEST_CASE("a copied rectangle is moved and its bytes counted and it stays within
     region.targets().copy_rectangle(from, part, to, 3, -2);
     std::size_t wrong = 0;
     std::uint64_t pixels = 0;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
+    for (int y = 0; y < path_height; ++y)
+        for (int x = 0; x < path_width; ++x) {
             const int sx = x - 3, sy = y + 2;
             const bool written = sx >= part.x0 && sx < part.x1 && sy >= part.y0 && sy < part.y1;
-            const auto at = [](int column, int row) { return static_cast<std::size_t>(row * width + column); };
+            const auto at = [](int column, int row) { return static_cast<std::size_t>(row * path_width + column); };
             const std::uint32_t expected = written ? region.storage(from).depth(0)[at(sx, sy)] : 0u;
             wrong += region.storage(to).depth(0)[at(x, y)] != expected;
             pixels += written;

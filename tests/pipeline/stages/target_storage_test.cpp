@@ -11,14 +11,15 @@ namespace {
 using namespace strata::testing;
 using namespace strata::pipeline;
 
-constexpr std::array all_formats{Format::rgba8, Format::rgba16f, Format::rgba32f, Format::r16f,
-                                 Format::r32f,  Format::rg32f,   Format::d16,     Format::d24,
-                                 Format::d24s8, Format::d32f,    Format::s8};
+constexpr std::array all_formats{Format::rgba8, Format::rgba16f,      Format::rgba32f,  Format::r16f,      Format::r32f,
+                                 Format::rg32f, Format::d16,          Format::d24,      Format::d24s8,     Format::d32f,
+                                 Format::s8,    Format::srgb8_alpha8, Format::rgb10_a2, Format::r11g11b10f};
 
 std::uint32_t stored_bits(Format format) {
     switch (info(format).type) {
         case ChannelType::unorm8:
         case ChannelType::stencil: return 0xffu;
+        case ChannelType::unorm10:
         case ChannelType::half: return 0xffffu;
         case ChannelType::single:
         case ChannelType::depth: return 0xffffffffu;

@@ -48,6 +48,7 @@ Element element_of(Format format) noexcept {
     switch (pipeline::info(format).type) {
         case ChannelType::unorm8:
         case ChannelType::stencil: return Element::u1;
+        case ChannelType::unorm10: return Element::u2;
         case ChannelType::half: return Element::f2;
         case ChannelType::single: return Element::f4;
         case ChannelType::depth: break;

@@ -21,6 +21,9 @@ using pipeline::Image;
 
 constexpr std::string_view channel_letters = "RGBA";
 
+// Codes that are not values: a channel of bits follows.
+bool has_integers(ChannelType type) noexcept { return type == ChannelType::unorm8 || type == ChannelType::unorm10; }
+
 std::vector<scenes::StoredChannel> channels_of(Format format) {
     const pipeline::FormatInfo info = pipeline::info(format);
     std::vector<scenes::StoredChannel> channels;
@@ -29,12 +32,13 @@ std::vector<scenes::StoredChannel> channels_of(Format format) {
         case ChannelType::stencil: return {{"S", scenes::StoredType::word}};
         case ChannelType::depth: return {{"Z", scenes::StoredType::single}, {"Zbits", scenes::StoredType::word}};
         case ChannelType::unorm8:
+        case ChannelType::unorm10:
         case ChannelType::half:
         case ChannelType::single: break;
     }
     for (int c = 0; c < info.channels; ++c)
         channels.push_back({std::string(1, channel_letters[static_cast<std::size_t>(c)]), values});
-    if (info.type == ChannelType::unorm8)
+    if (has_integers(info.type))
         for (int c = 0; c < info.channels; ++c)
             channels.push_back(
                 {fmt::format("{}bits", channel_letters[static_cast<std::size_t>(c)]), scenes::StoredType::word});
@@ -55,12 +59,12 @@ void append_pixel(std::vector<std::byte>& bytes, const Image& image, const std::
     for (std::size_t c = 0; c < channels; ++c) {
         if (type == ChannelType::half)
             append(bytes, static_cast<std::uint16_t>(codes[c]));
-        else if (type == ChannelType::unorm8)
-            append(bytes, scenes::channel_value(type, codes[c]));
+        else if (has_integers(type))
+            append(bytes, scenes::blended_value(image.format, static_cast<int>(c), codes[c]));
         else
             append(bytes, codes[c]);
     }
-    for (std::size_t c = 0; c < channels && type == ChannelType::unorm8; ++c) append(bytes, codes[c]);
+    for (std::size_t c = 0; c < channels && has_integers(type); ++c) append(bytes, codes[c]);
 }
 
 scenes::PartSource part_of(const NamedImage& target, int sample) {

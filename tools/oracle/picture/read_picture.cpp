@@ -140,6 +140,7 @@ Picture read_by(const char* reader, const std::string& path) {
 Code code_of(pipeline::Format format) {
     switch (pipeline::info(format).type) {
         case pipeline::ChannelType::unorm8: return Code::unorm8;
+        case pipeline::ChannelType::unorm10: return Code::unorm10;
         case pipeline::ChannelType::half: return Code::half;
         case pipeline::ChannelType::single: return Code::single;
         case pipeline::ChannelType::stencil: return Code::integer;
@@ -161,7 +162,8 @@ TargetImage as_target(const pipeline::Image& image, std::string name) {
                        .code = code_of(image.format),
                        .width = image.width,
                        .height = image.height,
-                       .channels = image.channels()};
+                       .channels = image.channels(),
+                       .holds_encoded = image.format == pipeline::Format::srgb8_alpha8};
     target.codes.assign(image.codes.begin(), image.codes.end());
     return target;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/formats/srgb.h"
 #include "pipeline/formats/unorm8.h"
 #include "rasterizer/base/float_environment.h"
 #include "scenes/numbers/srgb_encode.h"
@@ -18,9 +19,19 @@ std::uint32_t stored(Code code, float value, ColorSpace space) {
     return space == ColorSpace::linear ? scenes::encode_srgb8(value) : pipeline::to_unorm8(value);
 }
 
+// The colours of an srgb8_alpha8 target are decoded, and encoded again after a division by alpha.
+[[nodiscard]] bool is_encoded_target(const TargetImage& rendered) {
+    return rendered.holds_encoded && rendered.code == Code::unorm8;
+}
+
+// A float file holds the decoded colours of such a target, as the program's EXR does.
+[[nodiscard]] bool is_in_light(const TargetImage& rendered, const TargetImage& file) {
+    return is_encoded_target(rendered) && (file.code == Code::half || file.code == Code::single);
+}
+
 [[nodiscard]] bool is_converted(const TargetImage& rendered, const TargetImage& file, ColorSpace space) {
-    const bool is_float = rendered.code == Code::half || rendered.code == Code::single;
-    return file.holds_encoded && (space == ColorSpace::linear || is_float) && rendered.meaning == Meaning::color &&
+    const bool is_same = space == ColorSpace::encoded && rendered.code == Code::unorm8 && !is_encoded_target(rendered);
+    return (file.holds_encoded || is_in_light(rendered, file)) && !is_same && rendered.meaning == Meaning::color &&
            rendered.channels == 4;
 }
 
@@ -29,9 +40,17 @@ std::uint32_t stored(Code code, float value, ColorSpace space) {
     return has_alpha && file.alpha_form == AlphaForm::straight && rendered.alpha_form == AlphaForm::premultiplied;
 }
 
+// The space of a channel that the file encodes.
+[[nodiscard]] ColorSpace space_of(const TargetImage& rendered, const TargetImage& file, int c, ColorSpace space) {
+    if (c == 3 || is_in_light(rendered, file)) return ColorSpace::encoded;
+    return is_encoded_target(rendered) ? ColorSpace::linear : space;
+}
+
 // A channel of a pixel, divided by alpha if the file's colours are.
 [[nodiscard]] float value_for(const TargetImage& rendered, const TargetImage& file, std::size_t pixel, int c) {
-    const auto value = static_cast<float>(rendered.value_at(pixel, c));
+    const float value = is_encoded_target(rendered) && c < 3
+                            ? pipeline::srgb_to_linear[rendered.at(pixel, c).word & 0xffu]
+                            : static_cast<float>(rendered.value_at(pixel, c));
     if (c == 3 || !is_divided(rendered, file)) return value;
     const auto alpha = static_cast<float>(rendered.value_at(pixel, 3));
     return alpha > 0 ? value / alpha : 0.0f;
@@ -55,7 +74,7 @@ std::optional<TargetImage> stored_like(const TargetImage& rendered, const Target
     for (std::size_t pixel = 0; pixel < made.pixels(); ++pixel)
         for (int c = 0; c < 4; ++c)
             made.codes[pixel * 4 + static_cast<std::size_t>(c)] =
-                stored(file.code, value_for(rendered, file, pixel, c), c < 3 ? space : ColorSpace::encoded);
+                stored(file.code, value_for(rendered, file, pixel, c), space_of(rendered, file, c, space));
     return made;
 }
 
@@ -70,7 +89,7 @@ std::optional<std::size_t> differing_at_ties(const TargetImage& rendered, const 
             const std::uint32_t own = made->at(pixel, c).word, seen = file.at(pixel, c).word;
             if (own == seen) continue;
             const float value = value_for(rendered, file, pixel, c);
-            const bool is_encoded = c < 3 && space == ColorSpace::linear;
+            const bool is_encoded = space_of(rendered, file, c, space) == ColorSpace::linear;
             if (!is_at_tie(own, seen, double{is_encoded ? scenes::encode_srgb(value) : value}, file.code))
                 return std::nullopt;
             differs = true;

@@ -97,10 +97,11 @@ void main() {{
 void FinalQuad::draw(GLuint front, GLuint behind, PixelCodes& picture, Record* record) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     glDisable(GL_BLEND);
+    const bool encodes = glIsEnabled(GL_FRAMEBUFFER_SRGB) == GL_TRUE;
     if (input_.settings.encoded_again) glEnable(GL_FRAMEBUFFER_SRGB);
     bind({front, behind});
     draw_full_screen(program_);
-    glDisable(GL_FRAMEBUFFER_SRGB);
+    if (!encodes) glDisable(GL_FRAMEBUFFER_SRGB);
     show_pass(record, input_.size, "full_screen", {{"result", target_.name(), input_.formats.color}});
     picture = read_picture(target_.name(), input_);
 }

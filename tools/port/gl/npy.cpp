@@ -37,7 +37,8 @@ std::vector<std::size_t> numbers(const std::string& text) {
 }
 
 const char* type_of(const PixelFormat& format) {
-    const bool is_float = format.type == GL_FLOAT || format.type == GL_HALF_FLOAT;
+    const bool is_float =
+        format.type == GL_FLOAT || format.type == GL_HALF_FLOAT || format.type == GL_UNSIGNED_INT_10F_11F_11F_REV;
     if (format.bytes == 1) return "|u1";
     if (format.bytes == 2) return is_float ? "<f2" : "<u2";
     return is_float ? "<f4" : "<u4";

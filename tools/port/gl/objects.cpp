@@ -125,7 +125,8 @@ void require_complete() {
 }  // namespace
 
 const PixelFormat* find_format(const std::string& name) {
-    static constexpr std::array all{rgba8, rgba16f, rgba32f, rg32f, r16f, r32f, d16, d24, d32f, s8};
+    static constexpr std::array all{rgba8, rgba16f, rgba32f, rg32f, r16f,     r32f,      d16,
+                                    d24,   d32f,    s8,      srgb8, rgb10_a2, r11g11b10f};
     for (const PixelFormat& format : all)
         if (name == format.name) return &format;
     return nullptr;
@@ -311,6 +312,28 @@ void share_first_depth(GLuint texture, FrameSize size) {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+namespace {
+
+// Words of 32 bits at the start of `image` become four codes of 16 bits a pixel, from the last pixel on: 10-bit codes,
+// of alpha those of equal value; or halves of the packed floats, with alpha 1.
+void unpack(PixelCodes& image) {
+    const bool is_float = image.format == r11g11b10f;
+    for (std::size_t pixel = image.size.area(); pixel-- > 0;) {
+        std::uint32_t word = 0;
+        std::memcpy(&word, &image.bytes[pixel * 4], 4);
+        const auto bits = [word](int first, int count) { return word >> first & ((1u << count) - 1); };
+        const std::array<std::uint32_t, 4> wide =
+            is_float ? std::array{bits(0, 11) << 4, bits(11, 11) << 4, bits(22, 10) << 5, 0x3c00u}
+                     : std::array{bits(0, 10), bits(10, 10), bits(20, 10), bits(30, 2) * 341};
+        for (std::size_t c = 0; c < 4; ++c) {
+            const auto code = static_cast<std::uint16_t>(wide[c]);
+            std::memcpy(&image.bytes[pixel * 8 + c * 2], &code, 2);
+        }
+    }
+}
+
+}  // namespace
+
 PixelCodes read_back(GLuint texture, const PixelFormat& format, FrameSize size) {
     if (sampling().samples > 1)
         return sampling().shown < 0 ? read_resolved(texture, format, size)
@@ -323,6 +346,7 @@ PixelCodes read_back(GLuint texture, const PixelFormat& format, FrameSize size) 
     glReadBuffer(is_depth || is_stencil ? GL_NONE : GL_COLOR_ATTACHMENT0);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, size.width, size.height, format.external, format.type, image.bytes.data());
+    if (format == rgb10_a2 || format == r11g11b10f) unpack(image);
     if (format == d24)
         for (std::size_t i = 0; i < image.bytes.size(); i += 4) {
             std::uint32_t word = 0;

@@ -32,7 +32,10 @@ inline constexpr PixelFormat rg32f{"rg32f", GL_RG32F, GL_RG, GL_FLOAT, 2, 4};
 inline constexpr PixelFormat r8{"r8", GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1, 1};
 inline constexpr PixelFormat r16f{"r16f", GL_R16F, GL_RED, GL_HALF_FLOAT, 1, 2};
 inline constexpr PixelFormat r32f{"r32f", GL_R32F, GL_RED, GL_FLOAT, 1, 4};
-inline constexpr PixelFormat srgb8{"srgb8", GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, 1};
+inline constexpr PixelFormat srgb8{"srgb8_alpha8", GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, 1};
+// Read back as words of 32 bits, which read_back() unpacks: 10-bit codes, and halves.
+inline constexpr PixelFormat rgb10_a2{"rgb10_a2", GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, 4, 2};
+inline constexpr PixelFormat r11g11b10f{"r11g11b10f", GL_R11F_G11F_B10F, GL_RGB, GL_UNSIGNED_INT_10F_11F_11F_REV, 4, 2};
 inline constexpr PixelFormat d16{"d16", GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT, 1, 2};
 // Read back as the upper bits of a word; read_back() shifts them down.
 inline constexpr PixelFormat d24{"d24", GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 1, 4};

@@ -33,6 +33,7 @@ const char* type_of(pipeline::Format format) {
     switch (pipeline::info(format).type) {
         case pipeline::ChannelType::unorm8:
         case pipeline::ChannelType::stencil: return "u1";
+        case pipeline::ChannelType::unorm10: return "u2";
         case pipeline::ChannelType::half: return "f2";
         case pipeline::ChannelType::single: return "f4";
         case pipeline::ChannelType::depth: break;

@@ -141,6 +141,8 @@ void complete(RunOptions& options) {
         if (found->option.empty()) throw CLI::ValidationError(found->sentence);
         throw CLI::ValidationError(found->option, found->sentence);
     }
+    if (const auto found = light_conflict(options.render, options.scene_options.color_space))
+        throw CLI::ValidationError("--color-space", *found);
     // A pack has its own background, so black counts, too, if it replaces that.
     if (options.background == pipeline::Rgba{0, 0, 0, 1} && !scenes::is_pack(options.scene)) options.background.reset();
     if (is_piped && options.algorithms.size() > 1)
