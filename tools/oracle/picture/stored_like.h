@@ -3,9 +3,10 @@
 // Rule     PNG, JPEG, TGA, BMP and TIFF files of 8 or 16 bits hold sRGB-encoded colours (TargetImage::holds_encoded). A
 //          target is converted as the program's writer of PNG does: divided by alpha if the file's colours are
 //          straight, encoded if the scene blends linear values, then rounded to a code. Targets of 8-bit codes in the
-//          encoded space are left as they are. EXR, HDR, NPY and plain numbers hold what was rendered.
-//          A value in the middle between two codes has either one, because binary32 arithmetic of other programs may
-//          put it on the other side: *at a tie* is a value within two ulps of 1.0 of the middle.
+//          encoded space are left as they are. Colours of srgb8_alpha8 are decoded for a division by alpha and for
+//          files of floats. Otherwise EXR, HDR, NPY and plain numbers hold what was rendered. A value in the middle
+//          between two codes has either one, because binary32 arithmetic of other programs may put it on the other
+//          side: *at a tie* is a value within two ulps of 1.0 of the middle.
 // Tests    tests/tools/oracle/picture/stored_like_test.cpp
 #pragma once
 #include <cstddef>

@@ -32,8 +32,8 @@ pipeline::Image random_colors(pipeline::Format format) {
 }  // namespace
 
 TEST_CASE("a rendered target stored like a PNG has the codes that the writer of PNG files writes") {
-    for (const pipeline::Format format :
-         {pipeline::Format::rgba8, pipeline::Format::rgba16f, pipeline::Format::rgba32f})
+    for (const pipeline::Format format : {pipeline::Format::rgba8, pipeline::Format::rgba16f, pipeline::Format::rgba32f,
+                                          pipeline::Format::srgb8_alpha8, pipeline::Format::rgb10_a2})
         for (const pipeline::ColorSpace space : {pipeline::ColorSpace::encoded, pipeline::ColorSpace::linear}) {
             const pipeline::Image image = random_colors(format);
             TargetImage rendered = as_target(image, "color");

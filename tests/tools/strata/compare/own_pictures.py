@@ -20,7 +20,9 @@ SIZE = ["--size", "40x30"]
 SETTINGS = [
     "", "--alpha 0.5", "--background 0.2,0.3,0.5", "--background none", "--background 1,1,1,0.5", "--color-space linear",
     "--color-space linear --color-format rgba16f", "--color-space linear --background none --color-format rgba32f", "--color-format rgba16f",
-    "--color-format rgba32f", "--color-format rgba16f --result-format rgba8", "--color-format rgba32f --background none", "--profile llvmpipe",
+    "--color-format rgba32f", "--color-format rgba16f --result-format rgba8", "--color-space linear --color-format srgb8_alpha8",
+    "--color-space linear --color-format rgba16f --result-format r11g11b10f",
+    "--color-space linear --background none --color-format srgb8_alpha8", "--color-format rgba32f --background none", "--profile llvmpipe",
     "--profile ideal", "--profile swiftshader", "--profile direct3d11", "--profile softpipe", "--origin lower-left", "--samples 4",
     "--samples 2 --shading pixel", "--samples 8 --profile ideal", "--samples 4 --origin lower-left --profile llvmpipe",
     "--samples 4 --color-format rgba16f --background 0.2,0.3,0.5", "--samples 4 --color-space linear", "--depth-format d16",

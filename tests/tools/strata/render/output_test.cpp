@@ -28,8 +28,12 @@ std::string digest_line(const Folder& folder, const std::string& file) {
 }  // namespace
 
 TEST_CASE("strata info --digests of an image prints the digest that its statistics contain") {
-    const auto [format, ending] = GENERATE(table<std::string, std::string>(
-        {{"rgba8", ".exr"}, {"rgba8", ".png"}, {"rgba16f", ".exr"}, {"rgba32f", ".exr"}}));  // PNG files hold codes
+    const auto [format, ending] =
+        GENERATE(table<std::string, std::string>({{"rgba8", ".exr"},
+                                                  {"rgba8", ".png"},
+                                                  {"rgba16f", ".exr"},
+                                                  {"rgba32f", ".exr"},
+                                                  {"rgb10_a2", ".exr"}}));  // PNG files hold codes
     const Folder folder;
     const CommandResult ended = render(folder, {"--color-format", format, "--stats", "-", "-o", "out" + ending});
     REQUIRE(ended.status == 0);
