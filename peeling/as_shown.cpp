@@ -17,7 +17,8 @@ namespace {
 
 void turn_keys(Image& image) {
     if (!is_depth(image.format)) return;
-    for (std::uint32_t& code : image.codes) code = rasterizer::depth_key(code);
+    const rasterizer::DepthFormat format = pipeline::depth_format(image.format);
+    for (std::uint32_t& code : image.codes) code = rasterizer::depth_key(code, format);
 }
 
 // Swaps the first row with the last, and so on.
@@ -60,13 +61,13 @@ void AsShown::turn(FrameFragments& fragments) const {
     for (pipeline::CapturedFragment& fragment : fragments.all) {
         if (turns_keys_) {
             fragment.shader_z = rasterizer::depth_key(fragment.shader_z);
-            fragment.code = rasterizer::depth_key(fragment.code);
-            fragment.exact_code = rasterizer::depth_key(fragment.exact_code);
+            fragment.code = rasterizer::depth_key(fragment.code, format_);
+            fragment.exact_code = rasterizer::depth_key(fragment.exact_code, format_);
         }
         fragment.pixel = pixel(fragment.pixel);
     }
     if (turns_keys_)
-        for (std::uint32_t& code : fragments.opaque) code = rasterizer::depth_key(code);
+        for (std::uint32_t& code : fragments.opaque) code = rasterizer::depth_key(code, format_);
     const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
     for (std::size_t first = 0; turns_rows_ && first < fragments.opaque.size(); first += pixels)
         exchange_rows(std::span{fragments.opaque}.subspan(first, pixels), height_);

@@ -23,6 +23,7 @@ class AsShown {
   public:
     AsShown(const RenderOptions& options, const pipeline::DeviceProfile& profile) noexcept
         : turns_keys_{options.raster.depth_order == rasterizer::DepthOrder::greater},
+          format_{profile.depth_buffer(options.depth)},
           turns_rows_{profile.origin == pipeline::Origin::lower_left},
           width_{options.width},
           height_{options.height} {}
@@ -47,7 +48,9 @@ class AsShown {
     }
 
   private:
-    bool turns_keys_, turns_rows_;
+    bool turns_keys_;
+    rasterizer::DepthFormat format_;  // of the codes that are keys
+    bool turns_rows_;
     int width_, height_;
 };
 

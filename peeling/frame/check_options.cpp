@@ -95,9 +95,10 @@ std::optional<Refusal> check_order(const RenderOptions& options, DepthFormat for
                            "use a depth range with near below far, or --depth-order greater beside this one"};
         return std::nullopt;
     }
-    if (format != DepthFormat::d32f)
-        return Refusal{"peeling with GREATER over fixed-point depth", "",
-                       "use --depth-format d32f: reversed depth gains nothing in fixed point"};
+    if (format == DepthFormat::d16f || format == DepthFormat::d24f)
+        return Refusal{"peeling with GREATER over float depth of 16 or 24 bits", "", "use --depth-format d24 or d32f"};
+    if (options.depth_path == rasterizer::DepthPath::w_buffer)
+        return Refusal{"w buffer with GREATER, because w grows with the distance", "", "use --depth-order less"};
     if (options.compare_epsilon.absolute != 0 || !options.quantize_reference)
         return Refusal{"reversed depth with an absolute compare epsilon or an unrounded compared depth", "",
                        "use --compare-epsilon Nulp"};

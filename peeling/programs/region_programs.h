@@ -30,6 +30,11 @@ inline namespace strict {
     return frame.transparent->geometry.state.depth_order == rasterizer::DepthOrder::greater;
 }
 
+// True if codes are binary32 keys. Keys of d16 and d24 are evenly spaced from the near end, as depths under LESS are.
+[[nodiscard]] inline bool has_float_keys(const pipeline::Frame& frame) noexcept {
+    return is_reversed(frame) && frame.key_request().format == rasterizer::DepthFormat::d32f;
+}
+
 // A fragment's window depth under either depth order: `shader_z` is the key that orders fragments
 // (rasterizer/reference/depth.md 11.2).
 [[nodiscard]] inline float window_z(const pipeline::Frame& frame, float shader_z) noexcept {

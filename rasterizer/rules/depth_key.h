@@ -2,9 +2,9 @@
 // as with standard depth.
 //
 // Rule     Under DepthOrder::greater every depth leaves the rasterizer as its key, an involution that reverses the
-//          order: 0 and 1 are exchanged, other normal numbers z in [0,1] become the number with the bits 3fffffff -
-//          bits(z). Denormal depths count as 0. Outside the range, z > 1 becomes a negative key and z < 0 a key above
-//          1, in order.
+//          order. Of d16 and d24 it is the greatest code less the code. Of d32f 0 and 1 are exchanged, other normal
+//          numbers z in [0,1] become the number with the bits 3fffffff - bits(z). Denormal depths count as 0. Outside
+//          the range, z > 1 becomes a negative key and z < 0 a key above 1, in order.
 // Source   rasterizer/reference/depth.md 11: a device that tests GREATER, clears to 0 and blends depths with MAX gives
 //          the same results on depths as one with LESS, 1 and MIN gives on keys.
 // Numbers  bits(0.5) = 3f000000. No key is denormal, so blending into float targets, which may flush denormals, does
@@ -16,6 +16,7 @@
 #include <cstdint>
 
 #include "rasterizer/base/numerics.h"
+#include "rasterizer/rules/depth_code.h"
 
 namespace strata::rasterizer {
 
@@ -26,6 +27,11 @@ inline namespace strict {
     constexpr std::uint32_t one = 0x3f800000u, least_normal = 0x00800000u;
     if (code < least_normal) return one;
     return code >= one ? 0u : 0x3fffffffu - code;
+}
+
+// The key of a code of d16, d24 or d32f; also the inverse.
+[[nodiscard]] constexpr std::uint32_t depth_key(std::uint32_t code, DepthFormat format) noexcept {
+    return format == DepthFormat::d32f ? depth_key(code) : max_code(format) - code;
 }
 
 // The key of any float; NaN is returned unchanged.

@@ -78,14 +78,15 @@ int FragmentValues::fill_depths(const TriangleFragments& f) const {
 // Arrays that were not requested are left unchanged.
 void FragmentValues::turn_into_keys(const TriangleFragments& f) const noexcept {
     FragmentBatch& batch = f.batch;
+    const DepthFormat format = depth_.scale.format;
     for (auto i = f.first; i < static_cast<std::size_t>(batch.count); ++i) {
         if (needs_.shader_z) batch.shader_z[i] = depth_key(batch.shader_z[i]);
-        if (needs_.code) batch.code[i] = depth_key(batch.code[i]);
+        if (needs_.code) batch.code[i] = depth_key(batch.code[i], format);
         if (needs_.reference) {
-            batch.reference_code[i] = depth_key(batch.reference_code[i]);
+            batch.reference_code[i] = depth_key(batch.reference_code[i], format);
             batch.reference_z[i] = double{depth_key(static_cast<float>(batch.reference_z[i]))};
         }
-        if (needs_.exact_code) batch.exact_code[i] = depth_key(batch.exact_code[i]);
+        if (needs_.exact_code) batch.exact_code[i] = depth_key(batch.exact_code[i], format);
     }
 }
 

@@ -58,23 +58,29 @@ View view_under(ClipDepth clip, DepthOrder order) {
     return view;
 }
 
-RenderOptions options_under(const FragmentScene& scene, ClipDepth clip, DepthOrder order) {
+RenderOptions options_under(const FragmentScene& scene, ClipDepth clip, DepthOrder order,
+                            DepthFormat format = DepthFormat::d32f) {
     RenderOptions options = options_for(scene);
-    options.depth = DepthFormat::d32f;
+    options.depth = format;
     options.raster.clip_depth = clip;
     options.raster.depth_order = order;
     return options;
 }
 
-std::uint32_t reversed_code(std::uint32_t code) {
-    return std::bit_cast<std::uint32_t>(1.0f - std::bit_cast<float>(code));
+// True if `reversed` is the code of 1 - d for the code of d. Of fixed point the codes of 1/2 and 1 - 1/2 are one code,
+// which rounding chooses.
+bool is_reversed_code(Format format, std::uint32_t code, std::uint32_t reversed) {
+    if (format == Format::d32f) return 1.0f - std::bit_cast<float>(code) == std::bit_cast<float>(reversed);
+    const std::uint32_t greatest = format == Format::d16 ? 0xffff : 0xffffff;
+    if (code == reversed) return code == greatest / 2 || code == greatest / 2 + 1;
+    return code + reversed == greatest;
 }
 
 // True if `reversed` is 1 - d wherever `forward` is d.
 bool are_reversed(const Image& forward, const Image& reversed) {
     if (forward.codes.size() != reversed.codes.size() || forward.format != reversed.format) return false;
     for (std::size_t i = 0; i < forward.codes.size(); ++i)
-        if (reversed_code(forward.codes[i]) != reversed.codes[i]) return false;
+        if (!is_reversed_code(forward.format, forward.codes[i], reversed.codes[i])) return false;
     return true;
 }
 
@@ -133,11 +139,15 @@ TEST_CASE("under GREATER every algorithm composites the same as under LESS and i
         const DrawList list = draw_list(scene);
         for (const char* profile : {"ideal", "geforce8", "llvmpipe"})
             for (const auto& algorithm : strata::peeling::algorithms())
-                for (const ClipDepth clip : {ClipDepth::minus_one_to_one, ClipDepth::zero_to_one})
+                for (const auto& [clip, format] : {std::pair{ClipDepth::minus_one_to_one, DepthFormat::d32f},
+                                                   std::pair{ClipDepth::zero_to_one, DepthFormat::d32f},
+                                                   std::pair{ClipDepth::zero_to_one, DepthFormat::d24},
+                                                   std::pair{ClipDepth::minus_one_to_one, DepthFormat::d16}})
                     for (const Running& running : all_ways_of_running) {
-                        INFO(profile << ' ' << algorithm.name << ' ' << static_cast<int>(clip));
-                        RenderOptions forward = options_under(scene, clip, DepthOrder::less);
-                        RenderOptions reversed = options_under(scene, clip, DepthOrder::greater);
+                        INFO(profile << ' ' << algorithm.name << ' ' << static_cast<int>(clip) << ' '
+                                     << static_cast<int>(format));
+                        RenderOptions forward = options_under(scene, clip, DepthOrder::less, format);
+                        RenderOptions reversed = options_under(scene, clip, DepthOrder::greater, format);
                         forward.keep_layers = reversed.keep_layers = algorithm.makes_layers;
                         running.apply(forward);
                         running.apply(reversed);
@@ -241,8 +251,7 @@ TEST_CASE("reversed float depth distinguishes walls that forward depth merges") 
     }
 }
 
-TEST_CASE(
-    "reversed depth is rejected by name without a float buffer or with a comparison between codes or with a light") {
+TEST_CASE("reversed depth is rejected by name over short floats or with a comparison between codes or with a light") {
     const FragmentScene scene = mixed_scene(4);
     const auto refusal_of = [&](const auto& change, const char* profile = "ideal") {
         RenderOptions options = options_under(scene, ClipDepth::minus_one_to_one, DepthOrder::greater);
@@ -252,8 +261,11 @@ TEST_CASE(
     };
     using Catch::Contains;
     CHECK(refusal_of([](RenderOptions&) {}).empty());
-    CHECK_THAT(refusal_of([](RenderOptions& o) { o.depth = DepthFormat::d24; }), Contains("--depth-format d32f"));
-    CHECK_THAT(refusal_of([](RenderOptions& o) { o.depth.reset(); }, "geforce3"), Contains("GREATER over fixed-point"));
+    CHECK(refusal_of([](RenderOptions& o) { o.depth = DepthFormat::d24; }).empty());
+    CHECK(refusal_of([](RenderOptions& o) { o.depth.reset(); }, "geforce3").empty());
+    for (const DepthFormat format : {DepthFormat::d16f, DepthFormat::d24f})
+        CHECK_THAT(refusal_of([&](RenderOptions& o) { o.depth = format; }, "geforce3"),
+                   Contains("float depth of 16 or 24 bits"));
     CHECK_THAT(refusal_of([](RenderOptions& o) { o.quantize_reference = false; }),
                Contains("absolute compare epsilon"));
     CHECK_THAT(refusal_of([](RenderOptions& o) { o.compare_epsilon.absolute = 1e-3; }),

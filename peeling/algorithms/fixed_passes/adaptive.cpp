@@ -78,7 +78,7 @@ void build(Region& region, const CurveTargets& t) {
                 curve.depth[e] = depth_of_node(loads, e, i);
                 curve.through[e] = depth_of_node(loads, 4 * first + e, i);
             }
-            insert(curve, count, is_reversed(region.frame()), depth_as_float(in.code[i], format),
+            insert(curve, count, has_float_keys(region.frame()), depth_as_float(in.code[i], format),
                    1.0f - in.color[3][i]);
             for (std::size_t e = 0; e < 4 * first; ++e) {
                 out.color[e / 4][e % 4][i] = e < count ? curve.depth[e] : no_node;

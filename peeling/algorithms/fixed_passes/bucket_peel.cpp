@@ -44,7 +44,7 @@ void find_bounds(Region& region, Target bounds, DepthFormat format) {
 }
 
 void fill_buckets(Region& region, Target bounds, const std::array<Target, targets>& ends, DepthFormat format) {
-    const bool reversed = is_reversed(region.frame());
+    const bool reversed = has_float_keys(region.frame());
     PassState state = max_state(region);
     state.color = ends;
     state.reads[0] = bounds;
@@ -72,7 +72,7 @@ void find_colors(Region& region, Target bounds, std::size_t first, const std::ar
     state.reads = {bounds, ends[first / 2], ends[first / 2 + 1], region.opaque_depth()};
     for (const Target target : colors) region.clear(target, {});
     const DepthFormat format = region.frame().key_request().format;
-    const bool reversed = is_reversed(region.frame());
+    const bool reversed = has_float_keys(region.frame());
     static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& loads, Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
             const float depth = depth_as_float(in.code[i], format), a = in.color[3][i];

@@ -43,7 +43,8 @@ DepthScale depth_scale(const Geometry& geometry, const DepthRequest& depth) noex
                      {}};
     scale.chip = chip_depth(scale, state, rules);
     const bool is_float = depth.format == DepthFormat::d32f, is_reversed = state.depth_order == DepthOrder::greater;
-    assert((!is_reversed || is_float) && "reversed depth has keys for codes of D32F alone");
+    [[maybe_unused]] const bool is_fixed = depth.format == DepthFormat::d16 || depth.format == DepthFormat::d24;
+    assert((!is_reversed || is_float || is_fixed) && "reversed depth has keys for codes of d16, d24 and d32f");
     const bool may_have_limits = depth.path == DepthPath::float32 && !is_reversed && !state.depth_clamp &&
                                  (scale.to_code.is_fixed() || is_float);
     if (!may_have_limits) return scale;

@@ -76,6 +76,24 @@ int wrong_pixels(const pipeline::Image& picture) {
     return wrong;
 }
 
+// Codes of the nearest depth that are not the nearest to it, for fixed point and exact depths.
+int wrong_codes(const pipeline::Image& depths, bool is_greater) {
+    const Rational greatest{static_cast<int>(rasterizer::max_code(pipeline::depth_format(depths.format)))};
+    int wrong = 0;
+    for (int y = 0; y < crossing_side; ++y)
+        for (int x = 0; x < crossing_side; ++x) {
+            const Rational at = Rational{2 * x + 1, crossing_side} - 1;
+            const auto depth = [&](std::size_t i) {
+                return Rational{crossing_planes[i][0]} + Rational{crossing_planes[i][1]} * at;
+            };
+            const Rational nearest = depth(0) < depth(1) ? depth(0) : depth(1);
+            const Rational window = is_greater ? 1 - nearest : nearest;
+            const Rational code{static_cast<int>(depths.codes[depths.index(x, y)])};
+            wrong += abs(code - window * greatest) > Rational{1, 2} ? 1 : 0;
+        }
+    return wrong;
+}
+
 }  // namespace
 
 TEST_CASE("whatever is reversed on whatever profile and depth format the nearest surface is drawn or nothing") {
@@ -92,12 +110,8 @@ TEST_CASE("whatever is reversed on whatever profile and depth format the nearest
                         INFO(profile.name << ", " << enum_name(format) << ", " << enum_name(clip)
                                           << (is_greater ? ", GREATER" : "")
                                           << (is_range_reversed ? ", reversed range" : ""));
-                        // Reversed keys are those of binary32, and LESS over a reversed range is refused.
-                        const bool is_float =
-                            format == DepthFormat::d32f ||
-                            (format == DepthFormat::d24 && profile.depth24 == pipeline::Depth24::binary32);
-                        const bool is_possible =
-                            !check(profile, format) && (is_greater ? is_float : !is_range_reversed);
+                        // LESS over a reversed range is refused.
+                        const bool is_possible = !check(profile, format) && (is_greater || !is_range_reversed);
                         CHECK(result.refusal.has_value() == !is_possible);
                         if (result.refusal) {
                             ++refused;
@@ -105,6 +119,8 @@ TEST_CASE("whatever is reversed on whatever profile and depth format the nearest
                         }
                         ++drawn;
                         CHECK(wrong_pixels(result.frame.color) == 0);
+                        if (profile.name == "ideal" && format != DepthFormat::d32f)
+                            CHECK(wrong_codes(result.frame.depth, is_greater) == 0);
                     }
     CHECK(drawn > 60);
     CHECK(refused > 60);
