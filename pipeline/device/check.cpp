@@ -110,10 +110,11 @@ std::optional<Refusal> check(const DeviceProfile& profile, std::span<const Featu
 
 std::optional<Refusal> check(const DeviceProfile& profile, rasterizer::Primitive primitive) {
     const rasterizer::Shape shape = shape_of(primitive);
-    const auto can = [shape](const DeviceProfile& p) { return draws(p.raster, shape); };
+    const auto can = [primitive](const DeviceProfile& p) { return draws(p.raster, primitive); };
     if (can(profile)) return std::nullopt;
-    return Refusal{std::string{"known rule for "} + (shape == rasterizer::Shape::line ? "lines" : "points"), "",
-                   way_out(can)};
+    return Refusal{std::string{"known rule for "} + (shape == rasterizer::Shape::line ? "lines" : "points") +
+                       (is_of_polygon(primitive) ? " of polygons" : ""),
+                   "", way_out(can)};
 }
 
 std::optional<Refusal> check(const DeviceProfile& profile, DepthFormat format) {

@@ -103,8 +103,8 @@ DeviceProfile mesa() {
     p.raster.perspective = PerspectiveDivide::reciprocal;
     p.raster.depth_rounding = DepthRounding::product_even;
     p.raster.offset_unit = OffsetUnit::two_codes;
-    p.raster.lines = LineRule::none;
-    p.raster.points = PointRule::none;
+    p.raster.lines = LineRule::shifted_ends;
+    p.raster.points = PointRule::subpixel_square;
     p.half_rounding = HalfRounding::toward_zero;
     p.unorm_rounding = UnormRounding::product_even;
     p.blend_rounding = BlendRounding::each_product;
@@ -147,6 +147,8 @@ DeviceProfile softpipe() {
     p.name = "softpipe";
     p.description = "no device: Mesa 22.3's softpipe, whose blends round when a cached tile is put back";
     p.raster.coverage = CoverageRule::float_spans;
+    p.raster.lines = LineRule::none;
+    p.raster.points = PointRule::none;
     p.raster.plane_rule = PlaneRule::least_corner;
     p.raster.perspective = PerspectiveDivide::quotient;
     p.raster.depth_rounding = DepthRounding::product_floor;

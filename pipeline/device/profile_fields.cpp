@@ -98,6 +98,7 @@ constexpr ProfileField interpolant_bits(std::string_view key, const Sources& sou
 
 constexpr std::string_view ours = "ideal: no device";
 constexpr std::string_view unruled = "[A] lines-and-points.md 1: refused, for its rule is not known here";
+constexpr std::string_view shapes = "[M] lines-and-points.md 4.1: llvmpipe's in 36 pictures; softpipe's is not known";
 constexpr std::string_view drawn = "[M] tools/lab/bench/README.md: Mesa 22.3 draws the same fragments";
 constexpr std::string_view opengl = "[S] OpenGL 4.5, which Mesa 22.3 implements";
 constexpr std::string_view unused = "[A] of path window_z, which this profile lacks";
@@ -189,9 +190,9 @@ constexpr std::array fields{
                                                          "[A] attributes.md 1.9: exact planes keep them", ours,
                                                          "[M] attributes.md 1.9: a varying is stepped"}),
     choice<&Rules::lines>("raster.lines", {"[M] lines-and-points.md 2: 17 of 18 pictures", "[S] lines-and-points.md 4",
-                                           ours, unruled, unruled, "[A] lines-and-points.md 4: as OpenGL"}),
+                                           ours, shapes, unruled, "[A] lines-and-points.md 4: as OpenGL"}),
     choice<&Rules::points>("raster.points", {"[M] lines-and-points.md 5: 7 of 7 pictures", "[S] lines-and-points.md 5",
-                                             ours, unruled, unruled, "[S] lines-and-points.md 5: two triangles"}),
+                                             ours, shapes, unruled, "[S] lines-and-points.md 5: two triangles"}),
     interpolant_bits("raster.interpolant_bits",
                      {"[A] depth.md 4.5: binary32", "[A] depth.md 4.5: binary32", ours, unmeasured}),
     choice<&Hypothesis::divide>("raster.divide",

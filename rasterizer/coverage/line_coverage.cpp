@@ -7,6 +7,7 @@
 
 #include "rasterizer/coverage/diamond_exit.h"
 #include "rasterizer/coverage/line_axis.h"
+#include "rasterizer/coverage/shifted_ends.h"
 
 namespace strata::rasterizer {
 namespace {
@@ -80,11 +81,12 @@ namespace {
 
 }  // namespace
 
-ShapeCoverage line_coverage(SubpixelPoint a, SubpixelPoint b, const RasterState& state,
+ShapeCoverage line_coverage(const WindowCorner& a, const WindowCorner& b, const RasterState& state,
                             const RasterRules& rules) noexcept {
-    if (rules.lines == LineRule::diamond_exit) return diamond_exit(a, b, state.line_width_px, rules.subpixel_bits);
-    if (is_thin(state, rules)) return thin(a, b, rules.subpixel_bits);
-    return band(a, b, state, rules.subpixel_bits);
+    const int bits = rules.subpixel_bits;
+    if (rules.lines == LineRule::shifted_ends) return shifted_ends(a.unsnapped, b.unsnapped, state.line_width_px, bits);
+    if (rules.lines == LineRule::diamond_exit) return diamond_exit(a.p, b.p, state.line_width_px, bits);
+    return is_thin(state, rules) ? thin(a.p, b.p, bits) : band(a.p, b.p, state, bits);
 }
 
 ShapeCoverage polygon_coverage(const std::array<SubpixelPoint, 3>& p, const RasterRules& rules) noexcept {
@@ -112,7 +114,7 @@ TriangleEdges line_edges(SubpixelPoint a, SubpixelPoint b, const RasterState& st
 }
 
 double line_overshoot(SubpixelPoint a, SubpixelPoint b, const RasterState& state, const RasterRules& rules) noexcept {
-    if (rules.lines != LineRule::diamond_exit && state.line_style != LineStyle::smooth) return 0.0;
+    if (rules.lines == LineRule::band && state.line_style != LineStyle::smooth) return 0.0;
     const double pixels = 2.0 + state.line_width_px;
     return 2.0 * pixels * (1 << rules.subpixel_bits) / static_cast<double>(LineAxis{a, b}.along);
 }
@@ -148,8 +150,10 @@ RowSpan touched_span(const ShapeCoverage& shape, RowSpan columns, int y, int sub
     return all;
 }
 
-Rect point_box(SubpixelPoint p, const RasterState& state, const RasterRules& rules) noexcept {
+Rect point_box(const WindowCorner& corner, const RasterState& state, const RasterRules& rules) noexcept {
     const int bits = rules.subpixel_bits;
+    if (rules.points == PointRule::subpixel_square) return subpixel_square(corner.unsnapped, state.point_size_px, bits);
+    const SubpixelPoint p = corner.p;
     std::int64_t before = 0, behind = 0;
     if (rules.points == PointRule::reciprocal) {
         const int side = register_of_size(state.point_size_px);

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "rasterizer/coverage/coverage.h"
+#include "rasterizer/coverage/window_corner.h"
 #include "rasterizer/rules/raster_state.h"
 
 namespace strata::rasterizer {
@@ -33,7 +34,7 @@ struct ShapeCoverage {
 };
 
 // The two ends, in submission order; rules.lines must not be none.
-[[nodiscard]] ShapeCoverage line_coverage(SubpixelPoint a, SubpixelPoint b, const RasterState& state,
+[[nodiscard]] ShapeCoverage line_coverage(const WindowCorner& a, const WindowCorner& b, const RasterState& state,
                                           const RasterRules& rules) noexcept;
 // The edge values from which a line's values are interpolated (lines-and-points.md 7).
 [[nodiscard]] TriangleEdges line_edges(SubpixelPoint a, SubpixelPoint b, const RasterState& state,
@@ -60,7 +61,7 @@ inline constexpr int smooth_samples = 8;
 }
 [[nodiscard]] RowSpan touched_span(const ShapeCoverage& shape, RowSpan columns, int y, int subpixel_bits) noexcept;
 
-// The pixels that a point at `p` covers; rules.points must not be none.
-[[nodiscard]] Rect point_box(SubpixelPoint p, const RasterState& state, const RasterRules& rules) noexcept;
+// The pixels that a point covers; rules.points must not be none.
+[[nodiscard]] Rect point_box(const WindowCorner& corner, const RasterState& state, const RasterRules& rules) noexcept;
 
 }  // namespace strata::rasterizer

@@ -12,6 +12,11 @@ namespace strata::rasterizer {
 // (rasterizer/reference/lines-and-points.md 1).
 enum class Primitive : std::uint8_t { triangles, lines, points, polygon_lines, polygon_points };
 
+// True if a triangle decides facing and culling.
+[[nodiscard]] constexpr bool is_of_polygon(Primitive primitive) noexcept {
+    return primitive == Primitive::polygon_lines || primitive == Primitive::polygon_points;
+}
+
 // Of a list of primitives with 1, 2 or 3 corners.
 [[nodiscard]] constexpr Primitive primitive_of(std::size_t corners) noexcept {
     return corners == 1 ? Primitive::points : corners == 2 ? Primitive::lines : Primitive::triangles;

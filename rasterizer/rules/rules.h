@@ -75,13 +75,14 @@ enum class OffsetUnit : std::uint8_t { format, float_exponent, buffer, two_codes
 enum class OffsetRule : std::uint8_t { corners, fragments };
 
 // Which pixels a line covers. none: lines are refused. band: NV2A's, by the style of the state. diamond_exit: OpenGL's
-// and Direct3D's line of one pixel per step of its longer direction, and OpenGL's wide lines (lines-and-points.md 2 to
-// 4).
-enum class LineRule : std::uint8_t { none, band, diamond_exit };
+// and Direct3D's line of one pixel per step of its longer direction, and OpenGL's wide lines. shifted_ends: llvmpipe's
+// parallelogram (lines-and-points.md 2 to 4).
+enum class LineRule : std::uint8_t { none, band, diamond_exit, shifted_ends };
 // Which pixels a point covers. none: points are refused. square: the centres within half its size, left and upper side
 // included. reciprocal: the same by NV2A's reciprocal, which includes the right and lower side unless the size is a
-// power of two (lines-and-points.md 5).
-enum class PointRule : std::uint8_t { none, square, reciprocal };
+// power of two. subpixel_square: llvmpipe's, whose size is rounded to subpixels and at least a pixel; left and lower
+// side included (lines-and-points.md 5).
+enum class PointRule : std::uint8_t { none, square, reciprocal, subpixel_square };
 
 // How a fragment's depth is computed (depth.md 4): depth_paths.h, window_z.h, plane.h.
 enum class DepthPath : std::uint8_t {
@@ -140,11 +141,21 @@ struct RasterRules {
     friend bool operator==(const RasterRules&, const RasterRules&) = default;
 };
 
-// True if the rules say which pixels a shape covers. Values of lines and points are exact planes of snapped corners.
-[[nodiscard]] constexpr bool draws(const RasterRules& r, Shape shape) noexcept {
+// Planes of a line or point are known for exact planes of snapped corners and for llvmpipe's (float_planes.h).
+[[nodiscard]] constexpr bool has_shape_planes(const RasterRules& r) noexcept {
+    if (r.plane_rule == PlaneRule::exact) return r.plane_origin == PlaneOrigin::snapped;
+    const bool is_stepped =
+        r.plane_rule == PlaneRule::reciprocal_area || r.plane_rule == PlaneRule::reciprocal_area_fused;
+    return is_stepped && r.plane_origin == PlaneOrigin::unsnapped;
+}
+
+// True if the rules say which pixels a primitive covers, and with which values. How the view volume cuts a triangle
+// whose outline or corners are drawn is unknown.
+[[nodiscard]] constexpr bool draws(const RasterRules& r, Primitive primitive) noexcept {
+    const Shape shape = shape_of(primitive);
     if (shape == Shape::triangle) return true;
-    return r.coverage == CoverageRule::snapped_edges && r.plane_rule == PlaneRule::exact &&
-           r.plane_origin == PlaneOrigin::snapped &&
+    if (is_of_polygon(primitive) && r.clip != ClipVolume::guard_band) return false;
+    return r.coverage == CoverageRule::snapped_edges && has_shape_planes(r) &&
            (shape == Shape::line ? r.lines != LineRule::none : r.points != PointRule::none);
 }
 

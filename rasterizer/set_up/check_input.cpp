@@ -132,7 +132,7 @@ void check(const TriangleSoup& soup, const RasterState& state, const RasterRules
         const auto require = [&](bool is_met, const std::string& expected) {
             if (!is_met) throw InputError("triangle soup", primitive, expected, found);
         };
-        require(draws(rules, shape), "triangles, because the rules have no " + found);
+        require(draws(rules, soup.runs[i].primitive), "triangles, because the rules have no " + found);
         require(shape != Shape::line || state.line_style == LineStyle::band || rules.lines == LineRule::band,
                 "line_style band, because the rules have no other");
         require(!state.sample, "triangles, because the frame has sample positions");

@@ -241,6 +241,39 @@ void Clipper::clip_depth_first(const Plane& plane, const ClipPolygon& from, Clip
     }
 }
 
+// Elsewhere a line is a polygon of two corners: clipping walks it there and back, and the first two corners of the
+// result are the ends of what is left.
+bool Clipper::clip_line(ClipPolygon& line, std::uint32_t planes) const noexcept {
+    line.count = 2;
+    if (is_single_ && !is_depth_first_) return clip_line_single(line, planes);
+    clip(line, planes);
+    return line.count >= 3;
+}
+
+bool Clipper::clip_line_single(ClipPolygon& line, std::uint32_t planes) const noexcept {
+    std::array<float, 2> t{};  // from each end
+    for (int i = 1; i < count_; ++i) {
+        if ((planes >> i & 1u) == 0) continue;
+        const Plane& plane = plane_[static_cast<std::size_t>(i)];
+        const float da = distance_single(plane, line.corner[0]), db = distance_single(plane, line.corner[1]);
+        if (db < 0.0f) t[1] = std::max(t[1], db / (db - da));
+        if (da < 0.0f) t[0] = std::max(t[0], da / (da - db));
+        if (t[0] + t[1] >= 1.0f) return false;
+    }
+    const ClipPolygon given = line;
+    for (std::size_t end = 0; end < 2; ++end) {
+        if (t[end] == 0.0f) continue;
+        const std::size_t other = 1 - end;
+        const float by = t[end];
+        line.corner[end] =
+            each(given.corner[end], given.corner[other], [by](float a, float b) { return step(a, b, by); });
+        line.is_new[end] = true;
+        for (std::size_t e = 0; e < given.extra_count; ++e)
+            line.extra[end][e] = step(given.extra[end][e], given.extra[other][e], by);
+    }
+    return true;
+}
+
 void Clipper::clip(ClipPolygon& polygon, std::uint32_t planes) const noexcept {
     ClipPolygon other;
     // The view volume has no w plane: inside its x planes w is never negative.

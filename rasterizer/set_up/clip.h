@@ -8,7 +8,8 @@
 //          bit for bit, and equal values stay equal. ClipVolume::view_volume: the planes x = w, -x = w, y = w, -y = w,
 //          near, far and the user's, in binary32; the new corner starts from the end that is nearer to the plane.
 //          view_volume_depth_first: near, far, -x = w, x = w, y = w, -y = w and the user's; corner = (dO I - dI O) (1 /
-//          (dO - dI)), each operation rounded.
+//          (dO - dI)), each operation rounded. A line in view_volume: of all planes that an end A is outside of, the
+//          greatest t = dA / (dA - dB) moves it to A + t (B - A); nothing is left if both t together are at least 1.
 // Source   Sutherland and Hodgman 1974; GL 2.1 2.12; rasterizer/reference/coverage.md 2. The bound on w is assumed: it
 //          keeps 1 / w and u / w finite.
 // Tests    tests/rasterizer/set_up/clip_test.cpp
@@ -49,6 +50,8 @@ class Clipper {
     [[nodiscard]] bool holds_view_volume() const noexcept { return holds_view_volume_; }
     // Clips `polygon` against the planes of the set `planes`; the corners stay in order, starting at corner 0.
     void clip(ClipPolygon& polygon, std::uint32_t planes) const noexcept;
+    // Clips the line from corner 0 to corner 1; false if nothing is left. Some end is outside of each plane.
+    [[nodiscard]] bool clip_line(ClipPolygon& line, std::uint32_t planes) const noexcept;
 
   private:
     // the equation that holds exactly on the plane
@@ -79,6 +82,7 @@ class Clipper {
     // The same for ClipVolume::view_volume, and for view_volume_depth_first.
     static void clip_single(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept;
     static void clip_depth_first(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept;
+    [[nodiscard]] bool clip_line_single(ClipPolygon& line, std::uint32_t planes) const noexcept;
 
     std::array<Plane, max_clip_planes> plane_{};
     int count_ = 0;

@@ -43,12 +43,12 @@ std::optional<bool> TriangleSetup::polygon_faces_front(const SourceTriangle& sou
 
 TriangleSetup::Fate TriangleSetup::add_shape(const SourceTriangle& source, SetupChunk& out) const {
     const Primitive primitive = source.run->primitive;
-    const bool is_of_polygon = primitive == Primitive::polygon_lines || primitive == Primitive::polygon_points;
+    const bool has_polygon = is_of_polygon(primitive);
     const auto& [first, a, b] = source.vertex;
-    const VertexMarks all = marks_[a] | marks_[b] | (is_of_polygon ? marks_[first] : 0);
+    const VertexMarks all = marks_[a] | marks_[b] | (has_polygon ? marks_[first] : 0);
     if ((all & (marks_input | marks_window)) != 0) return Fate::non_finite;
     bool front = true;
-    if (is_of_polygon) {
+    if (has_polygon) {
         if ((marks_[first] & marks_[a] & marks_[b] & marks_planes) != 0) return Fate::outside;
         const std::optional<bool> facing = polygon_faces_front(source);
         if (!facing) return Fate::culled;
@@ -59,8 +59,6 @@ TriangleSetup::Fate TriangleSetup::add_shape(const SourceTriangle& source, Setup
     return add_ends(source, {{b, b}, {&corners_[b], &corners_[b]}, marks_[b]}, front, out);
 }
 
-// A line is a polygon of two corners: clipping walks it there and back, and the first two corners of the result are the
-// ends of what is left.
 TriangleSetup::Fate TriangleSetup::add_line(const SourceTriangle& source, bool front, SetupChunk& out) const {
     const std::uint32_t a = source.vertex[1], b = source.vertex[2];
     const VertexMarks crossed = (marks_[a] | marks_[b]) & marks_planes;
@@ -70,9 +68,7 @@ TriangleSetup::Fate TriangleSetup::add_line(const SourceTriangle& source, bool f
     SourceTriangle side = source;
     side.vertex = {a, b, b};
     ClipPolygon cut = polygon(side);
-    cut.count = 2;
-    clipper_.clip(cut, crossed);
-    if (cut.count < 3) return Fate::outside;
+    if (!clipper_.clip_line(cut, crossed)) return Fate::outside;
     std::array<WindowCorner, 2> corner;
     VertexMarks marks = 0;
     for (std::size_t i = 0; i < 2; ++i)
@@ -96,8 +92,7 @@ TriangleSetup::Fate TriangleSetup::add_ends(const SourceTriangle& source, const 
     if ((ends.marks & marks_window) != 0 || (ends.marks & (front ? marks_front : marks_back)) != 0)
         return Fate::non_finite;
     const Shape shape = shape_of(source.run->primitive);
-    const Rect all =
-        shape == Shape::line ? line_coverage(a->p, b->p, state_, rules_).box : point_box(b->p, state_, rules_);
+    const Rect all = shape == Shape::line ? line_coverage(*a, *b, state_, rules_).box : point_box(*b, state_, rules_);
     if (all.area() == 0) return Fate::degenerate;
     const Rect box = intersection(all, state_.viewport);
     const std::array corners{a, a, b};

@@ -24,9 +24,10 @@ inline constexpr int max_span_rows = 128;  // rows whose spans are found at a ti
 
 // The half-planes of a line or smooth polygon; those of a point exclude nothing.
 [[nodiscard]] inline ShapeCoverage shape_coverage(const Geometry& geometry, const TriangleRecord& record) noexcept {
-    const std::array<SubpixelPoint, 3> p = geometry.points(record);
-    if (record.shape() == Shape::line) return line_coverage(p[1], p[2], geometry.state, geometry.rules);
-    return record.shape() == Shape::polygon ? polygon_coverage(p, geometry.rules) : ShapeCoverage{};
+    if (record.shape() == Shape::polygon) return polygon_coverage(geometry.points(record), geometry.rules);
+    if (record.shape() != Shape::line) return {};
+    const auto& [first, a, b] = record.vertex;
+    return line_coverage(geometry.corners[a], geometry.corners[b], geometry.state, geometry.rules);
 }
 // True if the fragments of a record are those with a covered sample, and their alpha is the samples' share.
 [[nodiscard]] inline bool is_smooth(const Geometry& geometry, Shape shape) noexcept {

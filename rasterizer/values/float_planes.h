@@ -6,8 +6,10 @@
 //          (i, j) is (dx i + a) + dy j. reciprocal_area_fused: fma(dy, j, fma(dx, i, a)). least_corner: corners in
 //          order of y, slopes times 1 / area; (a + dx i) + dy j at the even pixel of each 2 x 2 quad, and from there +
 //          dx, then + dy. Positions are those of rules.plane_origin. greatest_w: (i - x0) dx + (a + (j - y0) dy), with
-//          the plane from ordered_planes.h.
-// Source   pipeline/reference/mesa-rasterizers.md 2.4 and 3.3.
+//          the plane from ordered_planes.h. A line's values change along its longer axis alone: da = a - b, slope =
+//          (da d) (1 / (dx dx + dy dy)) with d the longer of dx and dy times 1 + the square of their quotient, all of a
+//          - b. A point has its vertex' values.
+// Source   pipeline/reference/mesa-rasterizers.md 2.4 and 3.3; rasterizer/reference/lines-and-points.md 7.1.
 // Numbers  Pixel coordinates are below 2^16, so they are exact. If the area rounds to 0, no slope is finite: NaN and
 //          infinities result.
 // Tests    tests/rasterizer/values/float_planes_test.cpp
@@ -96,12 +98,37 @@ class FloatPlanes {
         if (sample) right_ = 0.5f + sample->right(), down_ = 0.5f + sample->down();
     }
 
+    // A line from corner 1 to corner 2: its values are constant across the longer axis.
+    [[nodiscard]] static constexpr FloatPlanes of_line(PlaneRule rule, const WindowPosition& a,
+                                                       const WindowPosition& b) {
+        FloatPlanes planes{rule, Shape::line};
+        const Difference d = difference(a, b);
+        const float across = d.x * d.x, below = d.y * d.y;
+        const float square = across + below;
+        planes.reciprocal_ = 1.0f / square;
+        const auto size = [](float v) { return v < 0.0f ? -v : v; };
+        const bool is_x = size(d.x) >= size(d.y);
+        const float slope = is_x ? d.y / d.x : d.x / d.y;
+        const float squared = slope * slope, longer = 1.0f + squared;
+        planes.first_ = is_x ? Difference{d.x * longer, 0.0f} : Difference{0.0f, d.y * longer};
+        planes.x_ = a[0] - 0.5f;
+        planes.y_ = a[1] - 0.5f;
+        return planes;
+    }
+    // A point: the value of corner 2 everywhere.
+    [[nodiscard]] static constexpr FloatPlanes of_point(PlaneRule rule) { return {rule, Shape::point}; }
+
     [[nodiscard]] constexpr bool is_sampled() const noexcept { return is_sampled_; }
 
     // The plane through the values of corners 0, 1 and 2 in submission order.
     [[nodiscard]] constexpr FloatPlane plane(const std::array<float, 3>& value) const noexcept {
         const float a0 = value[order_[0]], a1 = value[order_[1]], a2 = value[order_[2]];
         FloatPlane plane;
+        if (shape_ == Shape::point) {
+            plane.origin = value[2];
+            return plane;
+        }
+        if (shape_ == Shape::line) return line_plane(value[1], value[2]);
         if (rule_ == PlaneRule::least_corner) {
             const float middle = a1 - a0, greatest = a2 - a0;
             plane.dx = less(first_.y, greatest, middle, second_.y) * reciprocal_;
@@ -120,6 +147,19 @@ class FloatPlanes {
     }
 
   private:
+    constexpr FloatPlanes(PlaneRule rule, Shape shape) noexcept : rule_{rule}, shape_{shape} {}
+
+    [[nodiscard]] constexpr FloatPlane line_plane(float a, float b) const noexcept {
+        const float change = a - b, right = change * first_.x, down = change * first_.y;
+        FloatPlane plane;
+        plane.dx = right * reciprocal_;
+        plane.dy = down * reciprocal_;
+        const float across = plane.dx * x_, below = plane.dy * y_;
+        const float moved = across + below;
+        plane.origin = a - moved;
+        return plane;
+    }
+
     struct Difference {
         float x, y;
     };
@@ -149,13 +189,14 @@ class FloatPlanes {
     }
 
     PlaneRule rule_;
+    Shape shape_ = Shape::triangle;
     std::array<std::size_t, 3> order_{0, 1, 2};
     // The first corner, minus half a pixel if there is no sample.
     float x_ = 0.0f, y_ = 0.0f;
     float right_ = 0.0f, down_ = 0.0f;  // position of the sample relative to its pixel's corner
     bool is_sampled_ = false;
     // From corner 1 to corner 0 and from corner 0 to corner 2, times the reciprocal. least_corner: from corner 0 to
-    // corners 1 and 2.
+    // corners 1 and 2. A line: from its second end to its first, longer by the square of its slope.
     Difference first_{}, second_{};
     float reciprocal_ = 0.0f;
 };
@@ -163,6 +204,11 @@ class FloatPlanes {
 // The planes of a triangle after set-up, by the rules of its geometry.
 [[nodiscard]] inline FloatPlanes float_planes(const Geometry& geometry, const TriangleRecord& triangle) noexcept {
     const RasterRules& rules = geometry.rules;
+    if (triangle.shape() == Shape::point) return FloatPlanes::of_point(rules.plane_rule);
+    if (triangle.shape() == Shape::line) {
+        const auto [first, a, b] = geometry.positions(triangle);
+        return FloatPlanes::of_line(rules.plane_rule, a, b);
+    }
     const std::array<SubpixelPoint, 3> p = geometry.points(triangle);
     std::array<WindowPosition, 3> position = geometry.positions(triangle);
     const float pixel = 1.0f / static_cast<float>(1 << rules.subpixel_bits);

@@ -154,7 +154,8 @@ TEST_CASE("lines and points are refused by devices without a rule for them and w
         const RenderResult result = render(mixed_list(), {}, {profile, "unsorted"}, options);
         return result.refusal ? result.refusal->feature : std::string{};
     };
-    CHECK(refused("llvmpipe", 1) == "known rule for lines");
+    CHECK(refused("llvmpipe", 1) == "");
+    CHECK(refused("softpipe", 1) == "known rule for lines");
     CHECK(refused("swiftshader", 1) == "known rule for lines");
     CHECK(refused("geforce8", 4) == "multisampling of lines and points");
     CHECK(refused("geforce8", 1) == "");

@@ -64,6 +64,18 @@ using VertexValues = std::array<float, 14>;
 
 [[nodiscard]] RasterRules view_volume() { return {.clip = ClipVolume::view_volume}; }
 
+// The end at `from` of a line, moved by the greatest t of the planes that it is outside of, and that t.
+[[nodiscard]] std::pair<VertexValues, float> moved_end(const VertexValues& from, const VertexValues& other) {
+    float most = 0;
+    for (int plane = 0; plane < 6; ++plane) {
+        const float d = distance_of(plane, from);
+        if (d >= 0) continue;
+        const float whole = nearest(Rational{d} - Rational{distance_of(plane, other)});
+        most = std::max(most, nearest(Rational{d} / Rational{whole}));
+    }
+    return {most > 0 ? moved(from, other, most) : from, most};
+}
+
 }  // namespace
 
 TEST_CASE("the view volume clips a triangle to the corners of the rule in its order with each step rounded", "[slow]") {
@@ -244,4 +256,34 @@ TEST_CASE("a corner that clipping added is projected as such and the others of i
     CHECK(wrong == 0);
     CHECK(unlike > 10);
     CHECK(given > 10);
+}
+
+TEST_CASE("the view volume moves the ends of a line to the last plane that each is outside of, or drops the line") {
+    const Clipper clipper{scene_state(64, 48), view_volume()};
+    Random random{19};
+    int wrong = 0, cut = 0, gone = 0;
+    for (int n = 0; n < 3000; ++n) {
+        ClipPolygon line{};
+        std::array<VertexValues, 2> given;
+        std::array<std::uint32_t, 2> outside;
+        for (std::size_t i = 0; i < 2; ++i) {
+            line.corner[i] = random_vertex(random, SoupKind::needs_clipping);
+            given[i] = std::bit_cast<VertexValues>(line.corner[i]);
+            outside[i] = clipper.outside(line.corner[i]);
+        }
+        if ((outside[0] & outside[1]) != 0) continue;
+        const auto first = moved_end(given[0], given[1]), second = moved_end(given[1], given[0]);
+        const bool is_left = nearest(Rational{first.second} + Rational{second.second}) < 1.0f;
+        const bool is_kept = clipper.clip_line(line, outside[0] | outside[1]);
+        gone += is_left ? 0 : 1;
+        cut += is_left && (outside[0] | outside[1]) != 0 ? 1 : 0;
+        wrong += is_kept == is_left ? 0 : 1;
+        if (!is_left) continue;
+        wrong += std::bit_cast<VertexValues>(line.corner[0]) == first.first ? 0 : 1;
+        wrong += std::bit_cast<VertexValues>(line.corner[1]) == second.first ? 0 : 1;
+        wrong += line.is_new[0] == (outside[0] != 0) && line.is_new[1] == (outside[1] != 0) ? 0 : 1;
+    }
+    CHECK(wrong == 0);
+    CHECK(cut > 300);
+    CHECK(gone > 10);
 }

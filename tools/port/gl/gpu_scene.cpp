@@ -1,5 +1,5 @@
-// tools/port/gl/gpu_scene.cpp - puts a scene's vertices into buffers and draws its runs of triangles with culling by
-// material (gpu_scene.h).
+// tools/port/gl/gpu_scene.cpp - puts a scene's vertices into buffers and draws its runs of triangles, lines and points
+// with culling by material (gpu_scene.h).
 #include "tools/port/gl/gpu_scene.h"
 
 #include <fmt/format.h>
@@ -85,11 +85,17 @@ Handle make_layout(const Handle& vertices, const Handle& indices, GLuint attribu
     return {name, [](GLuint n) { glDeleteVertexArrays(1, &n); }};
 }
 
+GLenum mode_of(DrawKind kind) {
+    return kind == DrawKind::triangles ? GL_TRIANGLES : kind == DrawKind::lines ? GL_LINES : GL_POINTS;
+}
+
 }  // namespace
 
 GpuScene::GpuScene(const IndexedMesh& mesh, FrameSize size, const PortSettings& settings)
     : settings_{settings},
       size_{size},
+      line_width_{mesh.line_width},
+      point_size_{mesh.point_size},
       two_sided_{std::ranges::any_of(mesh.vertices, [](const Vertex& v) { return v.front != v.back; })},
       vertices_{make_buffer<float>(GL_ARRAY_BUFFER, packed(mesh.vertices, two_sided_, settings.colors_in_bytes))},
       indices_{make_buffer<std::uint32_t>(GL_ARRAY_BUFFER, mesh.indices)},
@@ -105,11 +111,13 @@ void GpuScene::add_runs(const IndexedMesh& mesh) {
         const int all = static_cast<int>(draw.index_count);
         const auto count = static_cast<GLsizei>(std::max(0, all - settings_.indices_left_out));
         const bool joins = !runs.empty() && ends[kind] == draw.first_index && settings_.indices_left_out == 0 &&
-                           runs.back().double_sided == draw.double_sided && runs.back().mirrored == draw.mirrored;
+                           runs.back().kind == draw.kind && runs.back().double_sided == draw.double_sided &&
+                           runs.back().mirrored == draw.mirrored;
         if (joins)
             runs.back().count += count;
         else
-            runs.push_back({count, draw.first_index * sizeof(std::uint32_t), draw.double_sided, draw.mirrored});
+            runs.push_back(
+                {draw.kind, count, draw.first_index * sizeof(std::uint32_t), draw.double_sided, draw.mirrored});
         ends[kind] = std::size_t{draw.first_index} + draw.index_count;
     }
 }
@@ -117,6 +125,8 @@ void GpuScene::add_runs(const IndexedMesh& mesh) {
 void GpuScene::draw(Surfaces surfaces) const {
     const SampledSettings& sampled = settings_.sampled;
     const bool is_transparent = surfaces == Surfaces::transparent;
+    glLineWidth(line_width_);
+    glPointSize(point_size_);
     if (is_transparent && sampled.alpha_to_coverage) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
     if (is_transparent && ~sampled.mask != 0) {
         glEnable(GL_SAMPLE_MASK);
@@ -127,7 +137,7 @@ void GpuScene::draw(Surfaces surfaces) const {
         (culls ? glEnable : glDisable)(GL_CULL_FACE);
         glCullFace(settings_.culling == Culling::always_front ? GL_FRONT : GL_BACK);
         glFrontFace(run.mirrored ? GL_CW : GL_CCW);
-        glDrawElements(GL_TRIANGLES, run.count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(run.first_byte));
+        glDrawElements(mode_of(run.kind), run.count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(run.first_byte));
     }
     glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
     glDisable(GL_SAMPLE_MASK);

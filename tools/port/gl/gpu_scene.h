@@ -15,7 +15,7 @@ class GpuScene {
     // Uploads the mesh, which is not needed afterwards.
     GpuScene(const IndexedMesh& mesh, FrameSize size, const PortSettings& settings);
 
-    // Draws the selected triangles in order, in one call per run of equal facing state. Sets culling and front face;
+    // Draws the selected primitives in order, in one call per run of equal facing state. Sets culling and front face;
     // the caller sets program, framebuffer, textures and blending.
     void draw(Surfaces surfaces = Surfaces::transparent) const;
     [[nodiscard]] bool has(Surfaces surfaces) const { return !runs_[static_cast<std::size_t>(surfaces)].empty(); }
@@ -25,8 +25,9 @@ class GpuScene {
     [[nodiscard]] Handle make_program(const std::string& fragment, const std::vector<std::string>& samplers = {}) const;
 
   private:
-    // Consecutive triangles with the same facing state: `count` indices from byte `first_byte` of the index buffer.
+    // Consecutive primitives with the same facing state: `count` indices from byte `first_byte` of the index buffer.
     struct Run {
+        DrawKind kind = DrawKind::triangles;
         GLsizei count = 0;
         std::uintptr_t first_byte = 0;
         bool double_sided = true, mirrored = false;
@@ -35,6 +36,7 @@ class GpuScene {
 
     PortSettings settings_;
     FrameSize size_;
+    float line_width_, point_size_;
     bool two_sided_;  // some vertex has a separate colour for the back
     std::array<std::vector<Run>, 2> runs_;
     Handle vertices_, indices_, layout_;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <stdexcept>
 
 #include "tools/port/gl/npy.h"
@@ -134,7 +135,29 @@ void append_vertices(const Manifest& manifest, const std::string& place, Indexed
         mesh.vertices.push_back({four(clip, i), four(front, i), four(back, i)});
 }
 
-// Appends the vertices, then merges consecutive triangles with equal flags into one draw.
+// What the primitives of an instance are.
+DrawKind kind_of(const Manifest& manifest, std::uint32_t instance) {
+    const int mesh = manifest.number(fmt::format("/scene/instances/{}/mesh", instance));
+    const std::string place = fmt::format("/scene/meshes/{}/primitive", mesh);
+    if (!manifest.json.contains(ordered_json::json_pointer(place))) return DrawKind::triangles;
+    const std::string found = manifest.text(place);
+    if (found == "lines") return DrawKind::lines;
+    if (found != "points") manifest.refuse(place, "lines or points: the port draws no parts of polygons", found);
+    return DrawKind::points;
+}
+
+// The corners of a primitive that OpenGL is given: a line's are its first end twice and its second, a point's its
+// vertex three times.
+std::span<const std::uint32_t> given(std::span<const std::uint32_t> three, DrawKind kind) {
+    return kind == DrawKind::triangles ? three : three.subspan(kind == DrawKind::lines ? 1 : 2);
+}
+
+float size_option(const Manifest& manifest, const std::string& name) {
+    const ordered_json::json_pointer place("/state/options/" + name);
+    return manifest.json.contains(place) ? std::stof(manifest.json.at(place).get<std::string>()) : 1.0f;
+}
+
+// Appends the vertices, then merges consecutive primitives of one kind with equal flags into one draw.
 void append_draws(const Manifest& manifest, const std::string& place, IndexedMesh& mesh) {
     constexpr unsigned double_sided = 1, mirrored = 2;
     const auto first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -142,19 +165,22 @@ void append_draws(const Manifest& manifest, const std::string& place, IndexedMes
     const auto corners = read_rows<std::uint32_t>(manifest.array(place + "/triangles"), "u4", 3);
     const auto flags = read_rows<std::uint8_t>(manifest.array(place + "/flags"), "u1", 1);
     const auto materials = read_rows<std::uint32_t>(manifest.array(place + "/materials"), "u4", 1);
-    if (flags.size() * 3 != corners.size() || materials.size() != flags.size())
-        manifest.refuse(place, "flags and a material for each triangle", "another number");
+    const auto objects = read_rows<std::uint32_t>(manifest.array(place + "/objects"), "u4", 1);
+    if (flags.size() * 3 != corners.size() || materials.size() != flags.size() || objects.size() != flags.size())
+        manifest.refuse(place, "flags, a material and an object for each triangle", "another number");
     const bool transparent = choice(manifest, place + "/list", "opaque", "transparent");
+    auto kind = DrawKind::triangles;
     for (std::size_t i = 0; i < flags.size(); ++i) {
         if (i == 0 || materials[i] != materials[i - 1]) check_material(manifest, materials[i]);
-        if (i == 0 || flags[i] != flags[i - 1])
+        if (i == 0 || objects[i] != objects[i - 1]) kind = kind_of(manifest, objects[i]);
+        if (i == 0 || flags[i] != flags[i - 1] || kind != mesh.draws.back().kind)
             mesh.draws.push_back({static_cast<std::uint32_t>(mesh.indices.size()), 0, transparent,
-                                  (flags[i] & double_sided) != 0, (flags[i] & mirrored) != 0});
-        mesh.draws.back().index_count += 3;
-        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
-            if (corners[c] >= mesh.vertices.size() - first_vertex)
-                manifest.refuse(place + "/triangles", "numbers of vertices", std::to_string(corners[c]));
-            mesh.indices.push_back(first_vertex + corners[c]);
+                                  (flags[i] & double_sided) != 0, (flags[i] & mirrored) != 0, kind});
+        for (const std::uint32_t corner : given(std::span{corners}.subspan(3 * i, 3), kind)) {
+            if (corner >= mesh.vertices.size() - first_vertex)
+                manifest.refuse(place + "/triangles", "numbers of vertices", std::to_string(corner));
+            mesh.indices.push_back(first_vertex + corner);
+            ++mesh.draws.back().index_count;
         }
     }
 }
@@ -170,6 +196,8 @@ Pack read_pack(const std::string& folder) {
     pack.zero_to_one = choice(manifest, "/state/clip_depth", "minus_one_to_one", "zero_to_one");
     check_state(manifest);
     pack.sampling = sampling_of(manifest);
+    pack.mesh.line_width = size_option(manifest, "line_width");
+    pack.mesh.point_size = size_option(manifest, "point_size");
     for (std::size_t i = 0; i < manifest.at("/draws").size(); ++i)
         append_draws(manifest, fmt::format("/draws/{}", i), pack.mesh);
     for (std::size_t i = 0; i < manifest.at("/results").size(); ++i)
