@@ -60,6 +60,11 @@ std::optional<Refusal> PreparedLists::undrawable() const {
         const Primitive primitive = s_.list.meshes[instance.mesh].primitive;
         if (primitive == Primitive::triangles) continue;
         if (auto lacking = check(s_.profile, primitive)) return lacking;
+        if (s_.raster.line_stipple && shape_of(primitive) == rasterizer::Shape::line &&
+            !has_line_stipple(s_.profile.raster, primitive))
+            return Refusal{
+                "known rule for stippled lines" + std::string{is_of_polygon(primitive) ? " of polygons" : ""}, "",
+                is_of_polygon(primitive) ? "" : "use geforce8 or ideal"};
         if (s_.options.sampling.samples > 1 || s_.raster.sample)
             return Refusal{"multisampling of lines and points", "", "use --samples 1"};
     }

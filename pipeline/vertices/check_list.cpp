@@ -18,7 +18,8 @@ void check_indices(const Requirements& list, const Mesh& mesh, std::size_t numbe
     const FieldName indices{"meshes", number, "indices"};
     if (mesh.indices.size() % 3 != 0) list.fail(indices, "three per primitive", mesh.indices.size());
     list.listed({"meshes", number, "primitive"}, mesh.primitive);
-    const bool is_line = mesh.primitive == Primitive::lines, is_point = mesh.primitive == Primitive::points;
+    const bool is_line = mesh.primitive == Primitive::lines || mesh.primitive == Primitive::line_strips;
+    const bool is_point = mesh.primitive == Primitive::points;
     for (std::size_t i = 0; (is_line || is_point) && i < mesh.indices.size(); i += 3) {
         if (mesh.indices[i] == mesh.indices[i + 1] && (is_line || mesh.indices[i] == mesh.indices[i + 2])) continue;
         list.fail(indices.text() + "[" + std::to_string(i + 1) + "]",

@@ -9,8 +9,9 @@ namespace strata::rasterizer {
 // Every primitive has three indices. lines: the first end twice, then the second end. points: the vertex three times.
 // polygon_lines and polygon_points draw a part of a triangle as a line or point: the side from the second to the third
 // index, and the vertex of the third; the triangle decides facing and culling
-// (rasterizer/reference/lines-and-points.md 1).
-enum class Primitive : std::uint8_t { triangles, lines, points, polygon_lines, polygon_points };
+// (rasterizer/reference/lines-and-points.md 1). line_strips: lines, of which each that begins with the vertex at which
+// the one before ended goes on with its stipple.
+enum class Primitive : std::uint8_t { triangles, lines, points, polygon_lines, polygon_points, line_strips };
 
 // True if a triangle decides facing and culling.
 [[nodiscard]] constexpr bool is_of_polygon(Primitive primitive) noexcept {
@@ -40,6 +41,7 @@ enum class Shape : std::uint8_t { triangle, line, point, polygon };
     switch (primitive) {
         case Primitive::triangles: return Shape::triangle;
         case Primitive::lines:
+        case Primitive::line_strips:
         case Primitive::polygon_lines: return Shape::line;
         case Primitive::points:
         case Primitive::polygon_points: break;

@@ -82,6 +82,14 @@ enum class LineStyle : std::uint8_t { band, thin, smooth };
 // triangle (lines-and-points.md 6).
 using PolygonStipple = std::array<std::uint32_t, 32>;
 
+// glLineStipple: fragment s of a line, counted from its start, is kept if bit s / factor mod 16 of the pattern is set;
+// lines of a strip count on (lines-and-points.md 8).
+struct LineStipple {
+    int factor = 1;  // 1 to 256
+    std::uint16_t pattern = 0xffff;
+    friend bool operator==(const LineStipple&, const LineStipple&) = default;
+};
+
 struct RasterState {
     // The viewport rectangle, which is also the extent of the surface: fragments outside it do not exist.
     Rect viewport;
@@ -118,6 +126,7 @@ struct RasterState {
     LineStyle line_style = LineStyle::band;
     bool smooth_polygons = false;  // NV2A's POLY_SMOOTH: as LineStyle::smooth, for triangles
     std::optional<PolygonStipple> polygon_stipple{};
+    std::optional<LineStipple> line_stipple{};
     std::array<ClipPlane, 6> clip_planes{};
     // The number of clip_planes in use, 0 to 6.
     int clip_plane_count = 0;

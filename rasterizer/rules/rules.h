@@ -159,4 +159,10 @@ struct RasterRules {
            (shape == Shape::line ? r.lines != LineRule::none : r.points != PointRule::none);
 }
 
+// True if the rules say how a stipple counts the fragments of a line. Outlines of polygons count around each polygon,
+// whose sides are lines of their own here.
+[[nodiscard]] constexpr bool has_line_stipple(const RasterRules& r, Primitive primitive) noexcept {
+    return r.lines == LineRule::diamond_exit && primitive != Primitive::polygon_lines;
+}
+
 }  // namespace strata::rasterizer

@@ -89,6 +89,7 @@ void check(const RasterState& state) {
     }
     check_size(its, "line_width_px", state.line_width_px);
     check_size(its, "point_size_px", state.point_size_px);
+    if (state.line_stipple) its.within("line_stipple.factor", state.line_stipple->factor, 1, 256);
     its.listed("line_style", state.line_style);
     if (state.line_style == LineStyle::thin && state.line_width_px != 1.0f)
         its.fail(FieldName{"line_width_px"}, "1 with line_style thin", state.line_width_px);
@@ -135,6 +136,8 @@ void check(const TriangleSoup& soup, const RasterState& state, const RasterRules
         require(draws(rules, soup.runs[i].primitive), "triangles, because the rules have no " + found);
         require(shape != Shape::line || state.line_style == LineStyle::band || rules.lines == LineRule::band,
                 "line_style band, because the rules have no other");
+        require(shape != Shape::line || !state.line_stipple || has_line_stipple(rules, soup.runs[i].primitive),
+                "no line_stipple, because the rules have none for these lines");
         require(!state.sample, "triangles, because the frame has sample positions");
     }
 }

@@ -9,6 +9,7 @@
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/parallel.h"
 #include "rasterizer/coverage/line_coverage.h"
+#include "rasterizer/coverage/line_stipple.h"
 #include "rasterizer/set_up/check_input.h"
 #include "rasterizer/set_up/setup.h"
 
@@ -41,6 +42,7 @@ class Listing {
     [[nodiscard]] std::size_t count() const noexcept {
         return soup_.order.empty() ? start_.back() : soup_.order.size();
     }
+    [[nodiscard]] std::size_t source_count() const noexcept { return start_.back(); }
 
     // `run` is the index of the TriangleRun in which the previous triangle was found; the next triangle is mostly in
     // the same one.
@@ -122,6 +124,32 @@ void concatenate(std::vector<SetupChunk>& chunks, int threads, Geometry& geometr
         const auto first = at(geometry.all_triangles, start[c].triangle);
         std::iota(first, first + std::ssize(chunk.triangles), static_cast<std::uint32_t>(start[c].triangle));
     });
+}
+
+// The number of the first fragment of every line: in a strip, that after the last one of the line before.
+void number_fragments(const TriangleSoup& soup, const Listing& listing, Geometry& geometry) {
+    const auto& records = geometry.triangles;
+    std::vector<std::uint32_t> source(records.size()), start(listing.source_count());
+    std::size_t run = 0;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        source[i] = listing.at(records[i].primitive, run).number;
+        if (records[i].shape() != Shape::line) continue;
+        const auto [first, a, b] = geometry.points(records[i]);
+        const Rect& viewport = geometry.state.viewport;
+        start[source[i]] = stipple_run(a, b, viewport, geometry.rules.subpixel_bits).count;
+    }
+    std::uint32_t number = 0;
+    for (std::size_t r = 0; r < soup.runs.size(); ++r) {
+        std::uint32_t next = 0;
+        for (std::uint32_t k = 0; k < soup.runs[r].index_count / 3; ++k, ++number) {
+            const std::uint32_t* const index = listing.indices(number, r);
+            const bool goes_on = k > 0 && soup.runs[r].primitive == Primitive::line_strips && index[1] == index[-1];
+            const std::uint32_t own = goes_on ? next : 0;
+            next = own + std::exchange(start[number], own);
+        }
+    }
+    geometry.stipple_start.resize(records.size());
+    for (std::size_t i = 0; i < records.size(); ++i) geometry.stipple_start[i] = start[source[i]];
 }
 
 }  // namespace
@@ -220,6 +248,7 @@ Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& 
     geometry.corners = std::move(setup.corners());
     geometry.extras = std::move(soup.extras);
     concatenate(chunks, threads, geometry);
+    if (state.line_stipple) number_fragments(soup, listing, geometry);
     return geometry;
 }
 

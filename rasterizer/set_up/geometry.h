@@ -140,6 +140,7 @@ struct Geometry {
     // Per triangle, the vertices of the source triangle, of which it may be a piece; empty except for
     // PlaneCorners::given.
     std::vector<std::array<std::uint32_t, 3>> given;
+    std::vector<std::uint32_t> stipple_start;  // per triangle, the number of a line's first fragment; empty if unused
     SetupCounters counters;
     bool has_other_shapes = false;  // than triangles
     int tile_size = 0, tiles_x = 0, tiles_y = 0;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "rasterizer/coverage/float_spans.h"
+#include "rasterizer/coverage/line_stipple.h"
 #include "rasterizer/set_up/triangle_walk.h"
 #include "rasterizer/values/fragment_values.h"
 #include "rasterizer/values/lane_kernels.h"
@@ -170,6 +171,7 @@ class TileRasterizer::Pass {
             keep([pattern = *geometry_.state.polygon_stipple](std::uint32_t x, std::uint32_t y) {
                 return (pattern[y % 32] << (x % 32) & 0x80000000u) != 0;
             });
+        if (geometry_.state.line_stipple && shape == Shape::line) keep_stippled(triangle);
         if (has_samples) keep([this](int x, int y) { return samples_at(x, y) > 0; });
         if (batch_.count == first_) return;
         int fallbacks = values_.fill(triangle, first_, batch_, owner_.weights_);
@@ -180,6 +182,13 @@ class TileRasterizer::Pass {
                 batch_.color[3][i] *= smooth_alpha(samples_at(batch_.x[i], batch_.y[i]));
         owner_.exact_fallbacks_ += static_cast<std::uint64_t>(fallbacks);
         first_ = batch_.count;
+    }
+
+    void keep_stippled(const DrawnTriangle& line) noexcept {
+        const auto [first, a, b] = geometry_.points(line.record);
+        const StippleRun run = stipple_run(a, b, geometry_.state.viewport, rules_.subpixel_bits);
+        const std::int64_t start = geometry_.stipple_start[line.index];
+        keep([&](int x, int y) { return is_kept(*geometry_.state.line_stipple, start + run.number(x, y)); });
     }
 
     [[nodiscard]] int samples_at(int x, int y) const noexcept {

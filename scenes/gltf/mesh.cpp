@@ -62,7 +62,8 @@ Indices lines_and_points(const Indices& order, int mode, const PrimitiveSource& 
 
 pipeline::Primitive primitive_of(int mode) {
     if (mode == TINYGLTF_MODE_POINTS) return pipeline::Primitive::points;
-    return mode < TINYGLTF_MODE_TRIANGLES ? pipeline::Primitive::lines : pipeline::Primitive::triangles;
+    if (mode == TINYGLTF_MODE_LINE) return pipeline::Primitive::lines;
+    return mode < TINYGLTF_MODE_TRIANGLES ? pipeline::Primitive::line_strips : pipeline::Primitive::triangles;
 }
 
 // Three corners per triangle. Remaining vertices are ignored, as glTF requires.

@@ -2,6 +2,7 @@
 // triangles.
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 
 #include "rasterizer/set_up/check_input.h"
@@ -89,6 +90,24 @@ constexpr const char* size_expected = "a number of pixels from 0 to 65536";
 std::optional<float> to_size_px(std::string_view text) {
     const auto px = to_number<float>(text);
     return px && !std::signbit(*px) && *px <= rasterizer::greatest_size_px ? px : std::nullopt;
+}
+
+// FACTOR,PATTERN: a whole number, and 16 bits in hexadecimal.
+std::optional<rasterizer::LineStipple> to_line_stipple(std::string_view text) {
+    const std::vector<std::string> parts = split(text, ',');
+    if (parts.size() != 2 || parts[1].size() < 3 || parts[1].size() > 6 || !parts[1].starts_with("0x"))
+        return std::nullopt;
+    const auto factor = to_int(parts[0]);
+    if (!factor || *factor < 1 || *factor > 256) return std::nullopt;
+    rasterizer::LineStipple stipple{*factor, 0};
+    const char* const end = parts[1].data() + parts[1].size();
+    const auto read = std::from_chars(parts[1].data() + 2, end, stipple.pattern, 16);
+    if (read.ec != std::errc{} || read.ptr != end) return std::nullopt;
+    return stipple;
+}
+
+std::string line_stipple_text(const rasterizer::LineStipple& stipple) {
+    return fmt::format("{},{:#06x}", stipple.factor, stipple.pattern);
 }
 
 std::string epsilon_text(const pipeline::CompareEpsilon& epsilon) {
@@ -206,6 +225,13 @@ std::vector<OptionField> depth_fields() {
         number<&PictureRequest::render, &RenderOptions::raster, &RasterState::point_size_px>(
             depth, {"point-size", "PX", "glPointSize: the sides of a point in pixels (default 1)", size_expected},
             to_size_px),
+        field<&PictureRequest::render, &RenderOptions::raster, &RasterState::line_stipple>(
+            depth,
+            {"line-stipple", "FACTOR,PATTERN",
+             "glLineStipple: of every 16 times FACTOR fragments along a line those whose bit is set, the lowest first "
+             "(default: all)",
+             "a whole number from 1 to 256 and 16 bits in hexadecimal such as 1,0x00ff"},
+            to_line_stipple, line_stipple_text),
         flag<&PictureRequest::render, &RenderOptions::raster, &RasterState::point_sprites>(
             depth, "point-sprites", "GL_POINT_SPRITE: a texture covers each point's square"),
         field<&PictureRequest::render, &RenderOptions::raster, &RasterState::scissor>(

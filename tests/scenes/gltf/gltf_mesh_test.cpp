@@ -56,7 +56,8 @@ TEST_CASE("points and lines and loops and strips are the specification's pairs")
     CHECK(corners_of(3, 3) == Indices{0, 0, 1, 1, 1, 2});
     for (const int mode : {1, 2, 3}) CHECK(corners_of(1, mode).empty());
     using enum strata::pipeline::Primitive;
-    for (const auto& [mode, primitive] : {std::pair{0, points}, {1, lines}, {2, lines}, {3, lines}, {4, triangles}}) {
+    for (const auto& [mode, primitive] :
+         {std::pair{0, points}, {1, lines}, {2, line_strips}, {3, line_strips}, {4, triangles}}) {
         const auto scene = numbered_vertices(3, {{"mode", mode}}).load();
         CHECK(scene.list.meshes.at(0).primitive == primitive);
         // Lines and points without normals are unlit and share their vertices.

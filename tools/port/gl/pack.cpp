@@ -87,6 +87,8 @@ void check_state(const Manifest& manifest) {
             manifest.refuse(std::string("/state/") + choice, "null", state.at(choice).dump());
     if (state.contains("algorithm") && !state.at("algorithm").is_null())
         manifest.refuse("/state/algorithm", "none: the port has each algorithm's usual options", "some");
+    if (state.contains("options") && state.at("options").contains("line_stipple"))
+        manifest.refuse("/state/options/line_stipple", "none: the port has no line stipple", "one");
     const ordered_json& offset = manifest.at("/state/polygon_offset");
     if (offset.is_object() && offset.value("enabled", false))
         manifest.refuse("/state/polygon_offset", "none: the port has no polygon offset", "one");
@@ -141,7 +143,7 @@ DrawKind kind_of(const Manifest& manifest, std::uint32_t instance) {
     const std::string place = fmt::format("/scene/meshes/{}/primitive", mesh);
     if (!manifest.json.contains(ordered_json::json_pointer(place))) return DrawKind::triangles;
     const std::string found = manifest.text(place);
-    if (found == "lines") return DrawKind::lines;
+    if (found == "lines" || found == "line_strips") return DrawKind::lines;
     if (found != "points") manifest.refuse(place, "lines or points: the port draws no parts of polygons", found);
     return DrawKind::points;
 }
