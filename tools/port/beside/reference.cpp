@@ -33,6 +33,11 @@ void check_materials(const Subject& subject) {
     }
 }
 
+DrawKind kind_of(rasterizer::Shape shape) {
+    if (shape == rasterizer::Shape::line) return DrawKind::lines;
+    return shape == rasterizer::Shape::point ? DrawKind::points : DrawKind::triangles;
+}
+
 }  // namespace
 
 rasterizer::TriangleSoup clip_vertices(const Subject& subject) {
@@ -45,9 +50,16 @@ IndexedMesh mesh_of(const rasterizer::TriangleSoup& soup) {
     IndexedMesh mesh;
     for (const rasterizer::ClipVertex& v : soup.vertices)
         mesh.vertices.push_back({{v.x, v.y, v.z, v.w}, v.front, v.back});
-    mesh.indices.assign(soup.indices.begin(), soup.indices.end());
-    for (const rasterizer::TriangleRun& run : soup.runs)
-        mesh.draws.push_back({run.first_index, run.index_count, true, run.double_sided, run.mirrored});
+    for (const rasterizer::TriangleRun& run : soup.runs) {
+        const DrawKind kind = kind_of(rasterizer::shape_of(run.primitive));
+        const auto first = static_cast<std::uint32_t>(mesh.indices.size());
+        // A line has its first end twice, a point its vertex three times.
+        const std::uint32_t unused = kind == DrawKind::triangles ? 0 : kind == DrawKind::lines ? 1 : 2;
+        for (std::uint32_t i = 0; i < run.index_count; ++i)
+            if (i % 3 >= unused) mesh.indices.push_back(soup.indices[run.first_index + i]);
+        const auto count = static_cast<std::uint32_t>(mesh.indices.size()) - first;
+        mesh.draws.push_back({first, count, true, run.double_sided, run.mirrored, kind});
+    }
     return mesh;
 }
 
