@@ -1,6 +1,8 @@
 // peeling/frame/refusal.cpp - the checks of refusal.h in their order.
 #include "peeling/frame/refusal.h"
 
+#include <algorithm>
+
 #include "peeling/frame/check_options.h"
 #include "peeling/registry.h"
 #include "pipeline/vertices/prepare.h"
@@ -35,6 +37,17 @@ std::optional<Refusal> check_logarithm(const rasterizer::DepthRequest& request, 
         return Refusal{"logarithmic depth for a projection without a far plane", "",
                        "use depth path float32, or a camera with a far plane"};
     return std::nullopt;
+}
+
+// float32_plane divides by the area of three corners, which a line and a point do not have.
+std::optional<Refusal> check_plane(const rasterizer::DepthRequest& request, const pipeline::DrawList& list) {
+    constexpr auto plane = rasterizer::DepthPath::float32_plane;
+    if (request.path != plane && request.reference != plane) return std::nullopt;
+    const auto has_area = [&](const Instance& instance) {
+        return list.meshes[instance.mesh].primitive == Primitive::triangles;
+    };
+    if (std::ranges::all_of(list.instances, has_area)) return std::nullopt;
+    return Refusal{"float32_plane for lines and points, which have no area", "", "use depth path float32"};
 }
 
 std::optional<Refusal> check_formats(const Algorithm& algorithm, const FrameSetup& setup) {
@@ -88,6 +101,7 @@ std::optional<Refusal> refusal_of(const Algorithm& algorithm, const FrameSetup& 
     if (auto lacking = check_size(profile, options.width, options.height)) return lacking;
     if (auto lacking = check_depth(profile, request)) return lacking;
     if (auto lacking = check_w_buffer(request, setup.is_perspective)) return lacking;
+    if (auto lacking = check_plane(request, setup.lists.settings().list)) return lacking;
     if (auto lacking = check_logarithm(request, setup.lists.settings().view)) return lacking;
     if (auto lacking = check_formats(algorithm, setup)) return lacking;
     if (auto lacking = check_order(options, setup.depth.format, casts_shadows)) return lacking;
@@ -104,6 +118,7 @@ std::optional<Refusal> refusal_of_depth_pass(const Algorithm& one_pass, const Fr
     if (auto lacking = setup.lists.undrawable()) return lacking;
     if (auto lacking = check_size(setup.profile, options.width, options.height)) return lacking;
     if (auto lacking = check_depth(setup.profile, setup.depth)) return lacking;
+    if (auto lacking = check_plane(setup.depth, setup.lists.settings().list)) return lacking;
     if (auto lacking = check(setup.profile, setup.color_format)) return lacking;
     return check_shading(setup.profile, one_pass, setup.depth, options);
 }

@@ -150,7 +150,7 @@ bool has_element(Values& values, const PlyElement& element) {
 
 }  // namespace
 
-void check_ply_counts(std::string_view file, const std::string& path) {
+std::uint64_t check_ply_counts(std::string_view file, const std::string& path) {
     const PlyHeader header = header_of(file, path);
     Values values{file.substr(header.end), header.encoding};
     for (const PlyElement& element : header.elements) {
@@ -160,6 +160,8 @@ void check_ply_counts(std::string_view file, const std::string& path) {
                 throw InputError(path, "element " + element.name, std::to_string(element.count) + " elements",
                                  "the values of " + std::to_string(i));
     }
+    const auto edges = std::ranges::find(header.elements, "edge", &PlyElement::name);
+    return edges == header.elements.end() ? 0 : edges->count;
 }
 
 // The counts of vertices and faces are the first two numbers; only words stand before, and comments between.

@@ -7,12 +7,14 @@
 // Source   G. Turk, The PLY Polygon File Format, 1994.
 // Tests    tests/scenes/models/models_test.cpp
 #pragma once
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace strata::scenes::models {
 
-void check_ply_counts(std::string_view file, const std::string& path);
+// Returns the number of edges.
+std::uint64_t check_ply_counts(std::string_view file, const std::string& path);
 void check_off_counts(std::string_view file, const std::string& path);
 
 }  // namespace strata::scenes::models

@@ -42,19 +42,21 @@ class ModelFolder {
     explicit ModelFolder(const std::string& path) : path_{path}, folder_{fs::path(path).parent_path()} {}
 
     // Errors in the model itself throw; for another file that is missing or no regular file the result is empty.
-    [[nodiscard]] std::vector<std::byte> read(const std::string& name) const {
+    [[nodiscard]] std::vector<std::byte> read(const std::string& name) {
         const fs::path relative = fs::path(name).lexically_normal();
         if (relative == fs::path(path_).filename()) {
             check_model_memory();
             std::vector<std::byte> bytes = bytes_of(path_);
             const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-            if (has_ending(path_, ".ply")) models::check_ply_counts(text, path_);
+            if (has_ending(path_, ".ply")) edges_ = models::check_ply_counts(text, path_);
             if (has_ending(path_, ".off")) models::check_off_counts(text, path_);
             return bytes;
         }
         const auto file = inside(name);
         return file ? bytes_of(*file) : std::vector<std::byte>{};
     }
+    // The edges of a PLY file that has been read.
+    [[nodiscard]] std::uint64_t edges() const noexcept { return edges_; }
     [[nodiscard]] std::optional<std::string> inside(std::string name) const {
         std::ranges::replace(name, '\\', '/');
         const InsideFolder found = inside_folder(folder_, name);
@@ -83,6 +85,7 @@ class ModelFolder {
     }
     std::string path_;
     fs::path folder_;
+    std::uint64_t edges_ = 0;
 };
 
 class ModelScene {
@@ -126,6 +129,9 @@ class ModelScene {
         };
         LoadedModel model = model_module().load(name, read);
         if (failure) std::rethrow_exception(failure);
+        if (folder_.edges() > 0)
+            scene_.warnings.push_back(fmt::format(
+                "its {} edges are not drawn: of a PLY file only vertices and faces are read", folder_.edges()));
         if (!missing.empty() && !model.has_library)
             scene_.warnings.push_back(fmt::format(
                 "its materials are drawn white: found none of the material libraries {} in the model's folder",
@@ -201,7 +207,9 @@ class ModelScene {
         mesh.name = from.name.empty() ? "mesh " + std::to_string(scene_.list.meshes.size()) : from.name;
         for (const auto& p : from.positions) mesh.positions.push_back({p[0], p[1], p[2]});
         for (const auto& n : from.normals) mesh.normals.push_back({n[0], n[1], n[2]});
-        for (const auto& c : from.colors) {
+        for (const auto& given : from.colors) {
+            // Colours of OBJ have no alpha: Assimp gives 0 to vertices without a colour in a mesh that has some.
+            const auto c = has_materials() && given[3] == 0 ? std::array<float, 4>{1, 1, 1, 1} : given;
             if (c[3] < 1) material.alpha_mode = AlphaMode::blend;
             mesh.colors.push_back(from_encoded({c[0], c[1], c[2], c[3]}, options_.color_space));
         }

@@ -35,7 +35,7 @@ constexpr std::string_view alpha_mode_name(pipeline::AlphaMode mode) {
 
 // Totals over instances: a mesh with two instances counts twice.
 struct Drawn {
-    std::uint64_t instances = 0, triangles = 0;
+    std::uint64_t instances = 0, triangles = 0, lines = 0, points = 0;
 };
 
 // Counts the instances whose material has this mode; without a mode, all of them.
@@ -44,7 +44,12 @@ Drawn drawn(const pipeline::DrawList& list, std::optional<pipeline::AlphaMode> m
     for (const auto& instance : list.instances) {
         if (mode && list.materials[instance.material].alpha_mode != *mode) continue;
         ++sum.instances;
-        sum.triangles += list.meshes[instance.mesh].indices.size() / 3;
+        const pipeline::Mesh& mesh = list.meshes[instance.mesh];
+        const rasterizer::Shape shape = shape_of(mesh.primitive);
+        std::uint64_t& kind = shape == rasterizer::Shape::line    ? sum.lines
+                              : shape == rasterizer::Shape::point ? sum.points
+                                                                  : sum.triangles;
+        kind += mesh.indices.size() / 3;
     }
     return sum;
 }
@@ -65,6 +70,8 @@ ordered_json to_json(const scenes::Scene& scene) {
         const Drawn part = drawn(scene.list, mode);
         modes[std::string(alpha_mode_name(mode))] = {{"instances", part.instances},
                                                      {"triangles", part.triangles},
+                                                     {"lines", part.lines},
+                                                     {"points", part.points},
                                                      {"materials", materials_of(scene.list, mode)}};
     }
     for (const auto& texture : scene.list.textures) {
@@ -88,6 +95,8 @@ ordered_json to_json(const scenes::Scene& scene) {
             {"material_names", material_names},
             {"instances", all.instances},
             {"triangles", all.triangles},
+            {"lines", all.lines},
+            {"points", all.points},
             {"alpha_modes", modes},
             {"opaque_with_alpha", ignored_alpha},
             {"textures", textures},
@@ -146,6 +155,15 @@ std::string ignored_alpha_text(const scenes::Scene& scene) {
     return fmt::format("{}: OPAQUE, so that it is not drawn (MASK or BLEND in the file draws it)", with_commas(parts));
 }
 
+// "1728", "8000 lines", "12 and 3 points".
+std::string counts_text(const Drawn& part) {
+    std::vector<std::string> counts;
+    if (part.triangles > 0 || part.lines + part.points == 0) counts.push_back(std::to_string(part.triangles));
+    if (part.lines > 0) counts.push_back(fmt::format("{} lines", part.lines));
+    if (part.points > 0) counts.push_back(fmt::format("{} points", part.points));
+    return fmt::format("{}", fmt::join(counts, " and "));
+}
+
 // The properties of the scene as a table, one per line.
 std::string describe(const scenes::Scene& scene) {
     const Drawn all = drawn(scene.list, std::nullopt);
@@ -155,11 +173,13 @@ std::string describe(const scenes::Scene& scene) {
     for (const auto& camera : scene.cameras) cameras.push_back(camera.name);
     Table table{{{scene.name}, {fmt::format("scene {} of {}", scene.scene_index, scene.scene_count)}}, {}};
     table.rows.push_back({"meshes", fmt::format("{}, drawn {} times", scene.list.meshes.size(), all.instances)});
-    table.rows.push_back({"triangles", fmt::format("{}", all.triangles)});
+    table.rows.push_back({"triangles", std::to_string(all.triangles)});
+    if (all.lines > 0) table.rows.push_back({"lines", std::to_string(all.lines)});
+    if (all.points > 0) table.rows.push_back({"points", std::to_string(all.points)});
     for (const auto mode : alpha_modes) {
         const Drawn part = drawn(scene.list, mode);
         table.rows.push_back({fmt::format("  {}", alpha_mode_name(mode)),
-                              fmt::format("{}{}", part.triangles, in_brackets(materials_of(scene.list, mode)))});
+                              fmt::format("{}{}", counts_text(part), in_brackets(materials_of(scene.list, mode)))});
     }
     table.rows.push_back({"materials", fmt::format("{}", scene.list.materials.size())});
     if (!scene.opaque_with_alpha.empty()) table.rows.push_back({"alpha lost", ignored_alpha_text(scene)});
@@ -177,7 +197,8 @@ std::string describe(const scenes::Scene& scene) {
 
 // Warns, with advice, if nothing of the scene would be rendered.
 void warn_of_empty(const std::string& path, const scenes::Scene& scene) {
-    if (drawn(scene.list, std::nullopt).triangles > 0) return;
+    const Drawn all = drawn(scene.list, std::nullopt);
+    if (all.triangles + all.lines + all.points > 0) return;
     say_warning(path + ": nothing would be drawn, because the scene has no triangles, lines or points; " +
                 (scene.scene_count > 1
                      ? fmt::format("--scene N, 0 to {}, chooses another scene of the file", scene.scene_count - 1)

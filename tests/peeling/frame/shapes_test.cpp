@@ -159,4 +159,12 @@ TEST_CASE("lines and points are refused by devices without a rule for them and w
     CHECK(refused("swiftshader", 1) == "known rule for lines");
     CHECK(refused("geforce8", 4) == "multisampling of lines and points");
     CHECK(refused("geforce8", 1) == "");
+    RenderOptions by_plane = mixed_options();
+    by_plane.color_format.reset();
+    by_plane.depth_path = rasterizer::DepthPath::float32_plane;
+    for (const char* algorithm : {"unsorted", "dual", "depth_units"}) {
+        const RenderResult result = render(mixed_list(), {}, {"ideal", algorithm}, by_plane);
+        REQUIRE(result.refusal);
+        CHECK(result.refusal->feature == "float32_plane for lines and points, which have no area");
+    }
 }

@@ -85,6 +85,23 @@ TEST_CASE("polygons are split into triangles and lines and points have meshes of
     CHECK(corners_of(cloud, points) == std::vector<float>{3, 3, 3, 4, 4, 4});
 }
 
+TEST_CASE("edges of a PLY file are reported and vertices of an OBJ file without a colour are white") {
+    const strata::test::OwnFolder folder;
+    const Scene edges =
+        load_scene(put(folder, "e.ply",
+                       "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+                       "element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n3 0 0\n4 1 0\n0 1\n"),
+                   {});
+    REQUIRE(edges.warnings.size() == 1);
+    CHECK(edges.warnings[0] == "its 1 edges are not drawn: of a PLY file only vertices and faces are read");
+    const Scene some =
+        load_scene(put(folder, "s.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0\nv 1 1 0\nl 1 2\nl 3 4\n"), {});
+    const pipeline::Mesh& mesh = some.list.meshes.at(0);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        CHECK(mesh.colors.at(i) == (mesh.positions[i][1] == 0 ? Rgba{1, 0, 0, 1} : Rgba{1, 1, 1, 1}));
+    CHECK(some.list.materials.at(0).alpha_mode == pipeline::AlphaMode::opaque);
+}
+
 TEST_CASE("materials of an OBJ file keep their properties and unsupported features are reported") {
     const strata::test::OwnFolder folder;
     put(folder, "room.mtl", mtl);

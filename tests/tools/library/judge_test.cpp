@@ -145,6 +145,19 @@ TEST_CASE("of an approximate algorithm a background in the middle between two co
     CHECK_THAT(judged(180, Effort::single).sentence, StartsWith("wrong"));
 }
 
+TEST_CASE("premultiplied colours in a file of straight ones are right and the first sentence says so") {
+    using namespace strata::oracle;
+    OpenScene opened = open({.scene = "teapot", .algorithm = "front_to_back"});
+    opened.options.background = {0, 0, 0, 0};
+    Picture picture = MistakeRenderer{opened.input(), *opened.algorithm}.right();
+    picture.targets[0].alpha_form = AlphaForm::straight;
+    picture.targets[0].holds_encoded = true;
+    const auto found = judge(opened.input(), {.candidate = picture, .algorithm = opened.algorithm}, Effort::single);
+    CHECK(found.is_right);
+    CHECK_THAT(found.sentence, StartsWith("right: structure exact at all 4096 pixels; ") &&
+                                   EndsWith("; colours are premultiplied, where such a file has straight ones"));
+}
+
 TEST_CASE("the matcher of a scene accepts a right picture and its message has the verdict's sentence") {
     const auto right = strata::picture_of(drawn_teapot(small_frame).color());
     const strata::MatchesScene matches{teapot(), strata::profile("geforce8"), small_frame};

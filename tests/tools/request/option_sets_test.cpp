@@ -67,7 +67,7 @@ PictureRequest random_request(std::mt19937& random, const Algorithm& algorithm) 
         if (random() % 3 != 0 || !reads(algorithm, field, request)) continue;
         PictureRequest next = request;
         REQUIRE(field.set(next, valid[random() % valid.size()]));
-        if (!option_conflict(next)) request = next;
+        if (!option_conflict(next) && !light_conflict(next.render, pipeline::ColorSpace::encoded)) request = next;
     }
     if (request.sample && pipeline::check_multisampling(device(), request.sampling.samples)) request.sample.reset();
     return request;

@@ -78,6 +78,7 @@ void add_mesh(const peeling::FrameRequest& input, pipeline::Selection drawn, std
             fact.mesh = mesh.name.substr(0, longest_name);
             if (mesh.name.size() > longest_name) fact.mesh += "...";
             fact.triangle = static_cast<int>(source);
+            fact.kind = mesh.primitive;
             return;
         }
         source -= triangles;
@@ -155,6 +156,8 @@ void add_facts_of(const peeling::FrameRequest& input, const DrawnList& list, con
             if (list.order)
                 add_mesh(input, list.drawn, list.order->empty() ? fact.primitive : (*list.order)[fact.primitive], fact);
             add_barycentric(list.geometry, centre, fact);
+            if (fact.kind != rasterizer::Primitive::triangles)  // which have an area to divide by
+                fact.path_codes[static_cast<std::size_t>(DepthPath::float32_plane)].reset();
         }
     }
 }

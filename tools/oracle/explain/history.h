@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "pipeline/frame/observer.h"
+#include "rasterizer/rules/primitive.h"
 #include "tools/oracle/passes/passes.h"
 
 namespace strata::oracle {
@@ -22,7 +23,9 @@ struct FragmentFact {
     std::uint32_t primitive = 0;  // submission index of its triangle in its list
     std::string mesh{};  // may be shortened; "" and triangle -1 if the algorithm has its own order of triangles
     int triangle = -1;   // index in the mesh
-    std::array<double, 3> barycentric{};  // of the snapped triangle, in submission order; if clipped, of its piece
+    rasterizer::Primitive kind = rasterizer::Primitive::triangles;
+    // Of the snapped triangle, in submission order; if clipped, of its piece. Lines and points have none.
+    std::array<double, 3> barycentric{};
     std::array<float, 4> color{};
     float shader_z = 0;
     std::uint32_t code = 0;                       // in the algorithm's key format

@@ -16,14 +16,31 @@ std::string hex(const std::vector<std::uint32_t>& codes) {
     return text;
 }
 
-std::string of_fragment(const FragmentFact& f, std::string_view mark, std::size_t number) {
-    std::string text = fmt::format(
-        "  {}{} {} triangle {}, submitted as {}, {}-facing{}\n", mark, number, f.mesh.empty() ? "mesh unknown" : f.mesh,
-        f.triangle, f.primitive, f.front_facing ? "front" : "back", f.is_masked ? ", cut by its material's alpha" : "");
-    text += fmt::format(
-        "     barycentric {:.6f} {:.6f} {:.6f}; colour {:.6f} {:.6f} {:.6f} {:.6f}; z {:.9g} ({:08x})\n     depth",
-        f.barycentric[0], f.barycentric[1], f.barycentric[2], f.color[0], f.color[1], f.color[2], f.color[3],
-        f.shader_z, std::bit_cast<std::uint32_t>(f.shader_z));
+std::string_view noun_of(rasterizer::Primitive kind) {
+    switch (kind) {
+        case rasterizer::Primitive::triangles: break;
+        case rasterizer::Primitive::lines:
+        case rasterizer::Primitive::line_strips: return "line";
+        case rasterizer::Primitive::points: return "point";
+        case rasterizer::Primitive::polygon_lines: return "side";
+        case rasterizer::Primitive::polygon_points: return "corner";
+    }
+    return "triangle";
+}
+
+// The depth of a reversed frame is a key, which is no number.
+std::string of_fragment(const FragmentFact& f, std::string_view mark, std::size_t number, bool is_reversed) {
+    std::string text =
+        fmt::format("  {}{} {} {} {}, submitted as {}, {}-facing{}\n", mark, number,
+                    f.mesh.empty() ? "mesh unknown" : f.mesh, noun_of(f.kind), f.triangle, f.primitive,
+                    f.front_facing ? "front" : "back", f.is_masked ? ", cut by its material's alpha" : "");
+    text += "     ";
+    if (f.kind == rasterizer::Primitive::triangles)
+        text += fmt::format("barycentric {:.6f} {:.6f} {:.6f}; ", f.barycentric[0], f.barycentric[1], f.barycentric[2]);
+    text += fmt::format("colour {:.6f} {:.6f} {:.6f} {:.6f}; ", f.color[0], f.color[1], f.color[2], f.color[3]);
+    const auto bits = std::bit_cast<std::uint32_t>(f.shader_z);
+    text += is_reversed ? fmt::format("z key {:08x}\n     depth", bits)
+                        : fmt::format("z {:.9g} ({:08x})\n     depth", f.shader_z, bits);
     for (std::size_t path = 0; path < depth_path_names.size(); ++path)
         text += fmt::format(" {} {}", depth_path_names[path],
                             f.path_codes[path] ? fmt::format("{:08x}", *f.path_codes[path]) : "none");
@@ -84,8 +101,10 @@ std::string to_text(const History& history) {
         text += fmt::format("  no fragment covers this pixel: it shows what was there before{}\n",
                             history.lines.empty() ? "" : ", " + hex(history.lines.back().held.at(0).before));
     if (history.is_reversed) text += "  depth is reversed: depths are shown as keys, of which the less is nearer\n";
-    for (std::size_t f = 0; f < history.opaque.size(); ++f) text += of_fragment(history.opaque[f], "opaque.", f);
-    for (std::size_t f = 0; f < history.fragments.size(); ++f) text += of_fragment(history.fragments[f], "#", f);
+    for (std::size_t f = 0; f < history.opaque.size(); ++f)
+        text += of_fragment(history.opaque[f], "opaque.", f, history.is_reversed);
+    for (std::size_t f = 0; f < history.fragments.size(); ++f)
+        text += of_fragment(history.fragments[f], "#", f, history.is_reversed);
     for (const Line& line : history.lines)
         text += line.kind == LineKind::opaque ? fmt::format("  before: {}\n", of_line(line))
                                               : fmt::format("  pass {}: {}\n", line.pass, of_line(line));

@@ -45,6 +45,11 @@ std::string sentence_of(const Emulated& emulated, const peeling::Algorithm& algo
                        emulated.is_exact ? "" : ", within one code,", emulated.words);
 }
 
+// A file of straight colours by definition that holds others.
+bool is_premultiplied(const verdict::PictureVerdict& single) {
+    return single.formed.is_chosen && !single.formed.use.is_divided;
+}
+
 class Judge {
   public:
     Judge(const peeling::FrameRequest& input, const AskedPicture& asked, Effort effort)
@@ -312,6 +317,8 @@ class Judge {
         const auto [first, rest] =
             layers_ ? divided(layers_->text(input_.list)) : std::pair<std::string, std::string>{};
         if (found_.sentence.empty()) found_.sentence = first;
+        if (found_.is_right && !is_by_emulation_ && layers_ && layers_->single && is_premultiplied(*layers_->single))
+            found_.sentence += "; colours are premultiplied, where such a file has straight ones";
         write_text(rest);
         write_json();
         if (layers_) found_.layers = std::make_shared<const LayersVerdict>(*std::move(layers_));

@@ -45,7 +45,9 @@ std::vector<std::string> LayersVerdict::mistakes(const pipeline::DrawList& list)
     if (!single || is_right()) return all;
     if (!single->found.finding.empty()) all.push_back(single->found.finding);
     for (const verdict::CheckedAccount& c : single->found.explanations)
-        all.push_back(description(c.account.rules, single->found.facts, list));
+        if (std::string words = description(c.account.rules, single->found.facts, list);
+            std::ranges::find(all, words) == all.end())
+            all.push_back(std::move(words));
     return all;
 }
 

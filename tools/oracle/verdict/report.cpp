@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tools/oracle/verdict/opposite_edges.h"
 #include "tools/oracle/verdict/verdict.h"
@@ -47,6 +48,15 @@ std::string excused_of(const CheckedAccount& c) {
     return fmt::format("{}", fmt::join(kinds, " and "));
 }
 
+// The explanations that have different words. Rules of different kinds may say the same of a scene.
+std::vector<const CheckedAccount*> told_apart(const Verdict& v, const pipeline::DrawList& list) {
+    std::vector<const CheckedAccount*> all;
+    std::set<std::string> told;
+    for (const CheckedAccount& c : v.explanations)
+        if (told.insert(description(c.account.rules, v.facts, list)).second) all.push_back(&c);
+    return all;
+}
+
 }  // namespace
 
 std::string first_line(const Verdict& v, const pipeline::DrawList& list) {
@@ -70,8 +80,9 @@ std::string first_line(const Verdict& v, const pipeline::DrawList& list) {
         return fmt::format(
             "wrong: {} of {} have values that no right port reaches, and no single mistake explains them all",
             v.right.wrong_pixels.size(), pixels(v.right.pixels));
-    if (v.explanations.size() == 1) return "wrong: " + description(v.explanations[0].account.rules, v.facts, list);
-    return fmt::format("wrong: one of {} mistakes, which look the same here", v.explanations.size());
+    const std::size_t count = told_apart(v, list).size();
+    if (count == 1) return "wrong: " + description(v.explanations[0].account.rules, v.facts, list);
+    return fmt::format("wrong: one of {} mistakes, which look the same here", count);
 }
 
 namespace {
@@ -105,9 +116,10 @@ std::vector<std::string> leads_of(const Verdict& v, const pipeline::DrawList& li
 std::string to_text(const Verdict& v, const pipeline::DrawList& list) {
     std::string text = first_line(v, list) + '\n';
     const auto add = [&](const std::string& line) { text += "  " + line + '\n'; };
-    for (const CheckedAccount& c : v.explanations) {
-        if (v.explanations.size() > 1) add(description(c.account.rules, v.facts, list));
-        add((v.explanations.size() > 1 ? "  " : "") + reach_of(c, v));
+    const std::vector<const CheckedAccount*> explanations = told_apart(v, list);
+    for (const CheckedAccount* const c : explanations) {
+        if (explanations.size() > 1) add(description(c->account.rules, v.facts, list));
+        add((explanations.size() > 1 ? "  " : "") + reach_of(*c, v));
     }
     if (!v.distinguishing_command.empty()) add("this scene distinguishes them: " + v.distinguishing_command);
     const CheckedAccount& account = v.explanations.empty() ? v.right : v.explanations[0];

@@ -161,3 +161,28 @@ TEST_CASE("the point where algorithms differ is described in a sentence and draw
     CHECK(text.find("takes #") != std::string::npos);
     CHECK_THROWS(explain(column.input("geforce8"), *peeling::find_algorithm("dual"), {20, 0, 21, 1}));
 }
+
+TEST_CASE("fragments of lines and points are called so and a reversed depth is a key without a number") {
+    const auto text_of = [](const char* scene, std::string_view what, bool is_reversed) {
+        const ExplainedScene column = explained_scene(scene, 20, 14);
+        peeling::FrameRequest input = column.input("ideal");
+        input.options.raster.line_width_px = 5;
+        input.options.raster.point_size_px = 5;
+        if (is_reversed) input.options.raster.depth_order = rasterizer::DepthOrder::greater;
+        for (const History& history : explain(input, *peeling::find_algorithm("front_to_back"), {0, 0, 20, 14}))
+            for (const FragmentFact& f : history.fragments)
+                if (std::string text = to_text(history); text.find(what) != std::string::npos && f.triangle >= 0)
+                    return text;
+        return std::string{};
+    };
+    for (const auto& [scene, noun] : {std::pair{"hair:strands=20", " strands line "}, {"splats:points=40", " point "}}) {
+        const std::string text = text_of(scene, noun, false);
+        CHECK(text.find(noun) != std::string::npos);
+        CHECK(text.find("barycentric") == std::string::npos);
+        CHECK(text.find("float32_plane none") != std::string::npos);
+        CHECK(text.find("; z 0.") != std::string::npos);
+    }
+    const std::string reversed = text_of("planes:gap=4", " triangle ", true);
+    CHECK(reversed.find("; z key ") != std::string::npos);
+    CHECK(reversed.find("barycentric") != std::string::npos);
+}
