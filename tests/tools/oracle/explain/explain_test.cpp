@@ -175,7 +175,8 @@ TEST_CASE("fragments of lines and points are called so and a reversed depth is a
                     return text;
         return std::string{};
     };
-    for (const auto& [scene, noun] : {std::pair{"hair:strands=20", " strands line "}, {"splats:points=40", " point "}}) {
+    for (const auto& [scene, noun] :
+         {std::pair{"hair:strands=20", " strands line "}, {"splats:points=40", " point "}}) {
         const std::string text = text_of(scene, noun, false);
         CHECK(text.find(noun) != std::string::npos);
         CHECK(text.find("barycentric") == std::string::npos);
