@@ -78,7 +78,8 @@ TEST_CASE("llvmpipe's lines have the diamonds that they leave if no end is on a 
     Random random{1};
     int wrong = 0, covered = 0;
     for (int i = 0; i < 400; ++i) {
-        const auto [a, b] = exact_line(random, i % 2 == 0);
+        const ExactLine ends = exact_line(random, i % 2 == 0);
+        const auto &a = ends.a, &b = ends.b;
         const RealEnd first{Rational{a[0]}, Rational{a[1]}}, second{Rational{b[0]}, Rational{b[1]}};
         const PixelSet drawn =
             pixels_of(fragments_of({{.x = a[0], .y = a[1], .z = 0.5f}, {.x = b[0], .y = b[1], .z = 0.5f}},
@@ -94,7 +95,8 @@ TEST_CASE("llvmpipe's wide lines add pixels across the longer axis, half of them
     Random random{2};
     int wrong = 0;
     for (int i = 0; i < 300; ++i) {
-        const auto [a, b] = exact_line(random, i % 2 == 0);
+        const ExactLine ends = exact_line(random, i % 2 == 0);
+        const auto &a = ends.a, &b = ends.b;
         const int width = 2 + i % 6;
         const bool is_x = i % 2 == 0;
         const auto drawn = [&](float px) {
@@ -127,10 +129,10 @@ TEST_CASE("llvmpipe's points are squares of whole subpixels, at least a pixel, w
         RasterState state = line_state();
         state.point_size_px = static_cast<float>(size) / 256.0f;
         const ClipVertex point{.x = static_cast<float>(x) / 256.0f, .y = static_cast<float>(y) / 256.0f, .z = 0.5f};
-        const int side = std::max(size, 256), left = x - side / 2, top = y - side / 2;
+        const int width = std::max(size, 256), left = x - width / 2, top = y - width / 2;
         const PixelSet expected = pixels_where([&](int px, int py) {
             const int cx = 256 * px + 128, cy = 256 * py + 128;
-            return cx >= left && cx < left + side && cy > top && cy <= top + side;
+            return cx >= left && cx < left + width && cy > top && cy <= top + width;
         });
         wrong += pixels_of(fragments_of({point}, Primitive::points, state, llvmpipe_shapes)) != expected ? 1 : 0;
     }
