@@ -154,7 +154,7 @@ TEST_CASE("premultiplied colours in a file of straight ones are right and the fi
     picture.targets[0].holds_encoded = true;
     const auto found = judge(opened.input(), {.candidate = picture, .algorithm = opened.algorithm}, Effort::single);
     CHECK(found.is_right);
-    CHECK_THAT(found.sentence, StartsWith("right: structure exact at all 4096 pixels; ") &&
+    CHECK_THAT(found.sentence, StartsWith("right: equal to the picture of front_to_back at all 4096 pixels; ") &&
                                    EndsWith("; colours are premultiplied, where such a file has straight ones"));
 }
 
