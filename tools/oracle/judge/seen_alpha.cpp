@@ -60,7 +60,7 @@ std::vector<float> seen_alphas(const peeling::FrameRequest& input, const verdict
     const auto [thousandth, fine] = best_of(std::max(1, hundredth - 9), std::min(1000, hundredth + 9), 1);
     std::vector<float> seen;
     if (fine > nearly) return seen;
-    const auto is_written = [](int number) { return number <= 990 || number == 1000; };  // 0.996 is nobody's option
+    const auto is_written = [](int number) { return number <= 990 || number == 1000; };  // 0.996 is the rounding of 1
     const bool is_finer = fine < 0.8 * coarse;
     for (const int number : {is_finer ? thousandth : hundredth, is_finer ? hundredth : thousandth})
         if (const float alpha = static_cast<float>(number) / 1000.0f;

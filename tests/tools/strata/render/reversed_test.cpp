@@ -1,5 +1,6 @@
 // Tests reversed depth of every kind on every profile and depth format, against planes in rational arithmetic: what is
 // drawn shows the nearest surface, and everything else is refused.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "peeling/registry.h"
@@ -59,16 +60,18 @@ peeling::RenderResult drawn_by(const pipeline::DeviceProfile& profile, DepthForm
     return renderer.render(*peeling::find_algorithm("unsorted"));
 }
 
+// Of a plane at the centre of a column's pixels.
+Rational crossing_depth(std::size_t plane, int x) {
+    const Rational at = Rational{2 * x + 1, crossing_side} - 1;
+    return Rational{crossing_planes[plane][0]} + Rational{crossing_planes[plane][1]} * at;
+}
+
 // Pixels whose colour is not that of the nearer plane; planes closer than a code of 16 bits are left out.
 int wrong_pixels(const pipeline::Image& picture) {
     int wrong = 0;
     for (int y = 0; y < crossing_side; ++y)
         for (int x = 0; x < crossing_side; ++x) {
-            const Rational at = Rational{2 * x + 1, crossing_side} - 1;
-            const auto depth = [&](std::size_t i) {
-                return Rational{crossing_planes[i][0]} + Rational{crossing_planes[i][1]} * at;
-            };
-            const Rational behind = depth(1) - depth(0);
+            const Rational behind = crossing_depth(1, x) - crossing_depth(0, x);
             if (abs(behind) < rasterizer::power(-14)) continue;
             const bool is_red = picture.codes[picture.index(x, y, 0)] == 255;
             wrong += is_red != (behind > 0) ? 1 : 0;
@@ -82,11 +85,7 @@ int wrong_codes(const pipeline::Image& depths, bool is_greater) {
     int wrong = 0;
     for (int y = 0; y < crossing_side; ++y)
         for (int x = 0; x < crossing_side; ++x) {
-            const Rational at = Rational{2 * x + 1, crossing_side} - 1;
-            const auto depth = [&](std::size_t i) {
-                return Rational{crossing_planes[i][0]} + Rational{crossing_planes[i][1]} * at;
-            };
-            const Rational nearest = depth(0) < depth(1) ? depth(0) : depth(1);
+            const Rational nearest = std::min(crossing_depth(0, x), crossing_depth(1, x));
             const Rational window = is_greater ? 1 - nearest : nearest;
             const Rational code{static_cast<int>(depths.codes[depths.index(x, y)])};
             wrong += abs(code - window * greatest) > Rational{1, 2} ? 1 : 0;

@@ -24,8 +24,8 @@ double in_bits(double v, double bits) noexcept {
 const std::vector<const StepEntry*>& entries() {
     static const std::vector<const StepEntry*> all = [] {
         std::vector<const StepEntry*> made;
-        for (const auto& table :
-             {list_entries(), value_entries(), order_entries(), background_entries(), fold_entries(), finish_entries()})
+        for (const auto& table : {list_entries(), value_entries(), order_entries(), background_entries(),
+                                  fold_entries(), sum_entries(), finish_entries()})
             for (const StepEntry& entry : table) made.push_back(&entry);
         return made;
     }();

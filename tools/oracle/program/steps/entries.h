@@ -19,6 +19,7 @@ namespace strata::oracle::program {
 [[nodiscard]] std::span<const StepEntry> order_entries();
 [[nodiscard]] std::span<const StepEntry> background_entries();
 [[nodiscard]] std::span<const StepEntry> fold_entries();
+[[nodiscard]] std::span<const StepEntry> sum_entries();
 [[nodiscard]] std::span<const StepEntry> finish_entries();
 // All of them.
 [[nodiscard]] const std::vector<const StepEntry*>& entries();

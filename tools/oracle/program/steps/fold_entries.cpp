@@ -1,7 +1,5 @@
 // tools/oracle/program/steps/fold_entries.cpp - other folds: how layers are put together, and how the background is
 // weighted (entries.h).
-//
-// Source   Bavoil, Myers 2008 (weighted average); McGuire, Bavoil 2013, equations 7 to 10 (weights by depth).
 #include <algorithm>
 #include <cmath>
 
@@ -94,75 +92,24 @@ double screen(double d, double s, double a) { return 1 - (1 - d) * (1 - a * s); 
 double difference(double d, double s, double a) { return std::fabs(s * a - d * (1 - a)); }
 double in_light(double d, double s, double a) { return encoded(decoded(d) * (1 - a) + decoded(s) * a); }
 
-// Sums over all layers, independent of their order.
-struct LayerSums {
-    Color color{};  // of weight * alpha * colour
-    double weight = 0, alpha = 0, through = 1;
-};
-template <auto weight_of>
-LayerSums sums_of(Stack layers, Parameters p) {
-    LayerSums s;
-    for (const PortLayer& layer : layers) {
-        const double w = weight_of(layer, p) * layer.alpha;
-        for (std::size_t c = 0; c < 3; ++c) s.color[c] += w * layer.color[c];
-        s.weight += w;
-        s.alpha += layer.alpha;
-        s.through *= 1 - layer.cover;
-    }
-    return s;
-}
-Color over(const LayerSums& s, double through, const Color& behind) {
-    Color color = behind;
-    if (s.weight > 0)
-        for (std::size_t c = 0; c < 3; ++c) color[c] = s.color[c] / s.weight * (1 - through) + through * behind[c];
-    return color;
-}
-double one(const PortLayer&, Parameters) { return 1; }
-double alpha(const PortLayer& layer, Parameters) { return layer.alpha; }
-// McGuire and Bavoil's equations, with the window depth as distance.
-double by_depth_10(const PortLayer& layer, Parameters) {
-    return layer.alpha * std::max(1e-2, 3e3 * std::pow(1 - layer.depth, 3));
-}
-double by_distance(const PortLayer& layer, Parameters p) {
-    return std::clamp(0.03 / (1e-5 + std::pow(layer.depth / p[0], 4)), 1e-2, 3e3);
-}
-double by_distance_and_alpha(const PortLayer& layer, Parameters p) { return layer.alpha * by_distance(layer, p); }
-double by_power(const PortLayer& layer, Parameters p) { return std::pow(std::max(1 - layer.depth, 0.0), p[0]); }
-template <bool by_alpha>
-double by_gauss(const PortLayer& layer, Parameters p) {
-    const double z = layer.depth / p[0];
-    return std::exp(-std::min(z * z, 700.0)) * (by_alpha ? layer.alpha : 1);
-}
-template <bool by_alpha>
-double by_decay(const PortLayer& layer, Parameters p) {
-    return std::exp(-std::min(layer.depth / p[0], 700.0)) * (by_alpha ? layer.alpha : 1);
-}
-template <auto weight_of>
-Color weighted(Stack layers, const Color& behind, const PortRounding&, Parameters p) {
-    const LayerSums s = sums_of<weight_of>(layers, p);
-    return over(s, s.through, behind);
-}
-Color weighted_average(Stack layers, const Color& behind, const PortRounding&, Parameters p) {
-    const LayerSums s = sums_of<one>(layers, p);
-    const double n = static_cast<double>(std::max<std::size_t>(layers.size(), 1));
-    return over(s, std::pow(std::max(1 - s.alpha / n, 0.0), n), behind);
-}
-Color tail_averaged(Stack layers, const Color& behind, const PortRounding& r, Parameters p) {
-    const auto first = std::min(static_cast<std::size_t>(p[0]), layers.size());
-    return blended(layers.first(first), weighted<one>(layers.subspan(first), behind, r, p), r);
+// The transmittance of all layers.
+double transmittance(Stack layers) {
+    double left = 1;
+    for (const PortLayer& layer : layers) left *= 1 - layer.cover;
+    return left;
 }
 
 Color divided(Stack layers, const Color& behind, const PortRounding& r, Parameters p) {
     if (layers.empty()) return behind;
     Color sum = from_front<usual>(layers, {}, r, p);
-    const double reached = 1 - sums_of<one>(layers, p).through;
+    const double reached = 1 - transmittance(layers);
     for (double& c : sum) c = std::min(c / std::max(reached, 1e-9), 1.0);
     return sum;
 }
 Color multiplied_again(Stack layers, const Color& behind, const PortRounding& r, Parameters p) {
     Color sum = from_front<usual>(layers, {}, r, p);
-    const double through = sums_of<one>(layers, p).through;
-    for (std::size_t c = 0; c < 3; ++c) sum[c] = sum[c] * (1 - through) + through * behind[c];
+    const double left = transmittance(layers);
+    for (std::size_t c = 0; c < 3; ++c) sum[c] = sum[c] * (1 - left) + left * behind[c];
     return sum;
 }
 Color alpha_as_color(Stack layers, const Color& behind, const PortRounding& r, Parameters p) {
@@ -189,19 +136,6 @@ Color of_halves(Stack layers, const Color& behind, const PortRounding& r, Parame
     const Color back = blended(layers.subspan(half), behind, r);
     return from_front<usual, join>(layers.first(half), back, r, p);
 }
-
-// Weights by depth: their logarithms at eight depths from p[0] to p[1], and a power of alpha.
-double by_curve(const PortLayer& layer, Parameters p) {
-    const double at = std::clamp((layer.depth - p[0]) / std::max(p[1] - p[0], 1e-9), 0.0, 1.0) * 7;
-    const double i = std::min(std::floor(at), 6.0);
-    const auto k = static_cast<std::size_t>(i) + 2;
-    return std::exp(p[k] + (at - i) * (p[k + 1] - p[k])) * std::pow(std::max(layer.alpha, 1e-9), p[10]);
-}
-std::vector<double> equal_weights(double nearest, double farthest) {
-    return {nearest, farthest, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-}
-// Weights that do not grow with depth: those of an average that prefers near layers.
-bool fall_with_depth(Parameters p) { return std::is_sorted(p.rbegin() + 1, p.rend() - 2); }
 
 // Blends of 8-bit codes whose products are shifted instead of divided.
 enum class Shifted : std::uint8_t { sum, each, by_256 };
@@ -232,9 +166,7 @@ Color in_few_bits(Stack layers, const Color& behind, const PortRounding&, Parame
             below[c] = kept(layers[k].color[c] * layers[k].alpha + below[c] * (1 - layers[k].cover));
     return below;
 }
-constexpr double scales[] = {0.05, 0.1, 0.3, 1};
-constexpr double distances[] = {0.1, 0.2, 0.5, 1, 10, 200}, exponents[] = {1, 2, 3, 4};
-constexpr double few_bits[] = {1, 2, 3, 4, 5, 6, 7}, shares[] = {0.05, 0.1, 0.2, 0.5, 0.75}, counts[] = {1, 2, 3, 4};
+constexpr double few_bits[] = {1, 2, 3, 4, 5, 6, 7}, shares[] = {0.05, 0.1, 0.2, 0.5, 0.75};
 
 const StepEntry table[] = {
     {.step = PortStep::fold, .words = "layers are combined by MAX of premultiplied colours", .fold = from_back<max>},
@@ -249,63 +181,6 @@ const StepEntry table[] = {
      .words = "colours and background are decoded, blended in linear light and encoded",
      .price = 5,
      .fold = in_linear_light},
-    {.step = PortStep::fold,
-     .words = "layers are averaged, with the mean alpha (weighted average)",
-     .fold = weighted_average},
-    {.step = PortStep::fold,
-     .words = "layers are averaged by alpha, with the right transmittance",
-     .price = 5,
-     .fold = weighted<one>},
-    {.step = PortStep::fold,
-     .words = "layers are averaged by the square of alpha, with the right transmittance",
-     .price = 6,
-     .fold = weighted<alpha>},
-    {.step = PortStep::fold,
-     .words = "weighted sums: alpha max(0.01, 3000 (1 - depth)^3)",
-     .price = 5,
-     .fold = weighted<by_depth_10>},
-    {.step = PortStep::fold,
-     .words = "weighted sums: clamp(0.03 / (1e-5 + (depth / {})^4), 0.01, 3000)",
-     .price = 5,
-     .parameters = distances,
-     .is_continuous = true,
-     .fold = weighted<by_distance>},
-    {.step = PortStep::fold,
-     .words = "weighted sums: alpha clamp(0.03 / (1e-5 + (depth / {})^4), 0.01, 3000)",
-     .price = 5,
-     .parameters = distances,
-     .is_continuous = true,
-     .fold = weighted<by_distance_and_alpha>},
-    {.step = PortStep::fold,
-     .words = "weighted sums: (1 - depth)^{}",
-     .price = 6,
-     .parameters = exponents,
-     .is_continuous = true,
-     .fold = weighted<by_power>},
-    {.step = PortStep::fold,
-     .words = "layers are averaged by weights that depend on depth (weighted sums): e^-(depth / {})^2",
-     .price = 5,
-     .parameters = scales,
-     .is_continuous = true,
-     .fold = weighted<by_gauss<false>>},
-    {.step = PortStep::fold,
-     .words = "layers are averaged by weights that depend on depth (weighted sums): alpha e^-(depth / {})^2",
-     .price = 5,
-     .parameters = scales,
-     .is_continuous = true,
-     .fold = weighted<by_gauss<true>>},
-    {.step = PortStep::fold,
-     .words = "layers are averaged by weights that depend on depth (weighted sums): e^-(depth / {})",
-     .price = 5,
-     .parameters = scales,
-     .is_continuous = true,
-     .fold = weighted<by_decay<false>>},
-    {.step = PortStep::fold,
-     .words = "layers are averaged by weights that depend on depth (weighted sums): alpha e^-(depth / {})",
-     .price = 5,
-     .parameters = scales,
-     .is_continuous = true,
-     .fold = weighted<by_decay<true>>},
     {.step = PortStep::fold,
      .words = "blends of 8 bits shift by 8 instead of dividing by 255",
      .price = 5,
@@ -328,18 +203,6 @@ const StepEntry table[] = {
      .price = 5,
      .parameters = few_bits,
      .fold = in_few_bits<true>},
-    {.step = PortStep::fold,
-     .words = "layers are averaged by weights that depend on depth (weighted sums): depths from {} to {} act with "
-              "weights of e^{}, {}, {}, {}, {}, {}, {}, {}, times alpha^{}",
-     .price = 10,
-     .start = equal_weights,
-     .is_plausible = fall_with_depth,
-     .fold = weighted<by_curve>},
-    {.step = PortStep::fold,
-     .words = "behind the first {} layers the others are averaged",
-     .price = 6,
-     .parameters = counts,
-     .fold = tail_averaged},
     {.step = PortStep::fold,
      .words = "the transmittance is reduced by subtraction of alpha",
      .price = 5,
