@@ -15,13 +15,12 @@
 #include "tools/oracle/diagnosis/diagnosis_report.h"
 #include "tools/oracle/judge/distinguish.h"
 #include "tools/oracle/judge/emulated.h"
+#include "tools/oracle/judge/fitted.h"
 #include "tools/oracle/judge/forgotten.h"
 #include "tools/oracle/judge/layers_verdict.h"
 #include "tools/oracle/judge/picture_diagnosis.h"
 #include "tools/oracle/judge/sample_habits.h"
 #include "tools/oracle/picture/stored_like.h"
-#include "tools/oracle/program/drawing/fit_drawings.h"
-#include "tools/oracle/program/screen/screen.h"
 #include "tools/oracle/verdict/equal_picture.h"
 
 namespace strata::oracle {
@@ -114,7 +113,7 @@ class Judge {
         if (is_open && is_of_another_peel()) return by_emulation();
         if (is_open && is_fitted()) return;
         by_layers();
-        if (fitting_) add_fitted_leads();
+        if (fitted_) add_fitted_leads();
     }
 
     // What a port does once a pixel that others do for every sample.
@@ -144,62 +143,38 @@ class Judge {
         return true;
     }
 
-    // True if the picture of the stated algorithm is explained in the same way: it is no mistake then.
-    [[nodiscard]] bool is_own_habit() {
-        if (algorithm_.exact) return false;
-        const Picture own = emulations_ ? emulations_->right : MistakeRenderer{input_, algorithm_}.right();
-        const verdict::Colors colors{colors_of(own)};
-        const program::Lists all = program::lists_of(*layers_->single->fragments, colors, true);
-        const program::Fitting fitting = fit(all);
-        const auto maps = explain_by_screen(all, fitting.right);
-        if (!screen_.empty()) return !maps.empty() && maps[0].words == screen_[0].words;
-        const auto entry_of = [](const program::Fitting& f) {
-            return f.found.empty() || f.found[0].program.edits.empty() ? nullptr : f.found[0].program.edits[0].entry;
-        };
-        return entry_of(fitting) != nullptr && entry_of(fitting) == entry_of(*fitting_);
-    }
-
-    // True if a program of few words gives the picture, or another way to draw the scene. Scenes of many fragments are
-    // not fitted.
+    // True if a fit explains the picture. Scenes of many fragments are not fitted.
     [[nodiscard]] bool is_fitted() {
         const std::uint64_t most_fragments = effort_ == Effort::all ? 1'000'000 : 250'000;
         if (!layers_->single) return false;
         const verdict::SceneFragments& fragments = *layers_->single->fragments;
         if (!fragments.keeps() || fragments.count() > most_fragments) return false;
-        const verdict::Colors colors = layers_->colors();
-        const program::Lists all = program::lists_of(fragments, colors, true);
-        fitting_ = fit_drawings(all, program::other_drawings(input_, all, colors));
-        // Of another drawing with one more edit plainer explanations are asked first.
-        const bool is_drawn_otherwise = fitting_->state == program::Fitting::State::explained;
-        const bool is_pair = is_drawn_otherwise && !fitting_->found[0].program.edits.empty();
-        if (!is_drawn_otherwise || is_pair) {
-            screen_ = explain_by_screen(all, fitting_->right);
-            if (screen_.empty()) {
-                program::Fitting fitted = fit(program::lists_of(fragments, colors));
-                if (!is_pair || fitted.state == program::Fitting::State::explained) fitting_ = std::move(fitted);
-            }
-        }
-        if (screen_.empty() && fitting_->state != program::Fitting::State::explained) return false;
-        if (is_own_habit()) {
-            screen_.clear();
-            fitting_.reset();
+        FittedPicture fitted = fitted_picture(input_, fragments, layers_->colors());
+        if (!fitted.is_explained()) {
+            fitted_ = std::move(fitted);
             return false;
         }
+        if (!algorithm_.exact && is_habit_of(fitted, fragments, verdict::Colors{colors_of(own_as_stored())}))
+            return false;
         found_.state = JudgedState::explained;
-        for (const program::ScreenMap& map : screen_) found_.mistakes.push_back(map.words);
-        if (screen_.empty())
-            for (const program::Proof& proof : fitting_->found) found_.mistakes.push_back(describe(proof.program));
+        found_.mistakes = fitted.mistakes();
         found_.sentence = "wrong: " + found_.mistakes[0];
+        fitted_ = std::move(fitted);
         return true;
     }
 
     void add_fitted_leads() {
-        if (fitting_->state != program::Fitting::State::explained_in_part) return;
-        if (found_.state == JudgedState::not_explained) found_.state = JudgedState::explained_in_part;
-        for (const program::Proof& proof : fitting_->found)
-            found_.leads.push_back(fmt::format("{}: {} of {} pixels are wrong then", describe(proof.program),
-                                               proof.fitness.beyond, proof.fitness.pixels));
+        const std::vector<std::string> leads = fitted_->leads();
+        if (!leads.empty() && found_.state == JudgedState::not_explained) found_.state = JudgedState::explained_in_part;
+        found_.leads.insert(found_.leads.end(), leads.begin(), leads.end());
     }
+
+    // The right picture of the stated algorithm.
+    const Picture& own() {
+        if (!own_) own_ = MistakeRenderer{input_, algorithm_}.right();
+        return *own_;
+    }
+    [[nodiscard]] Picture own_as_stored() { return stored_like(own(), asked_.candidate, input_.space); }
 
     // Asks which option of the view looks forgotten.
     [[nodiscard]] bool is_right_in_another_view() {
@@ -243,9 +218,9 @@ class Judge {
         }
     }
 
-    [[nodiscard]] bool is_equal_but_for_ties(const Picture& own) {
+    [[nodiscard]] bool is_equal_but_for_ties() {
         const TargetImage& colors = colors_of(asked_.candidate);
-        const auto at_ties = differing_at_ties(colors_of(own), colors, input_.space);
+        const auto at_ties = differing_at_ties(colors_of(own()), colors, input_.space);
         if (!at_ties) return false;
         found_.state = JudgedState::right;
         found_.sentence = *at_ties == 0
@@ -260,13 +235,12 @@ class Judge {
     // An approximate algorithm has a structure of its own; a port that has it, too, is right. A picture with the exact
     // structure is not that of an algorithm that has another one.
     [[nodiscard]] bool is_decided_by_own_structure() {
-        const Picture own = MistakeRenderer{input_, algorithm_}.right();
-        if (is_equal_but_for_ties(own)) return true;
+        if (is_equal_but_for_ties()) return true;
         const std::vector<std::string> seen = layers_->mistakes(input_.list);
         if (seen.empty() && !layers_->is_right()) return false;
-        const LayersVerdict its = judge_layers(input_, {.candidate = stored_like(own, asked_.candidate, input_.space),
-                                                        .has_alpha = asked_.has_alpha,
-                                                        .more = asked_.more});
+        const Picture own = own_as_stored();
+        const LayersVerdict its =
+            judge_layers(input_, {.candidate = own, .has_alpha = asked_.has_alpha, .more = asked_.more});
         if (layers_->is_right()) {
             if (its.is_right()) return false;
             found_.sentence =
@@ -337,12 +311,7 @@ class Judge {
         std::string& text = found_.text;
         text = found_.sentence + '\n';
         for (const std::string& sentence : found_.forgotten) text += "  " + sentence + '\n';
-        for (std::size_t i = 0; i < screen_.size(); ++i) {
-            if (i > 0) text += "  or: " + screen_[i].words + '\n';
-            text += fmt::format("    {} of {} pixels are wrong then\n", screen_[i].beyond,
-                                asked_.candidate.targets[0].pixels());
-        }
-        if (is_named_by_fitting() && screen_.empty()) text += divided(to_text(*fitting_)).second;
+        if (is_named_by_fitting()) text += fitted_->lines(asked_.candidate.targets[0].pixels());
         if (is_habit_)
             text += fmt::format("  explains all {} pixels that are not the mean of right samples\n",
                                 layers_->wrong_colors().size());
@@ -363,10 +332,7 @@ class Judge {
         text += oracle::lines_of(emulations_->found, emulations_->comparison);
     }
 
-    [[nodiscard]] bool is_named_by_fitting() const {
-        return fitting_ && found_.state == JudgedState::explained &&
-               (!screen_.empty() || fitting_->state == program::Fitting::State::explained);
-    }
+    [[nodiscard]] bool is_named_by_fitting() const { return fitted_ && fitted_->is_explained(); }
 
     void write_json() {
         ordered_json layers = layers_ ? layers_->json(input_) : ordered_json(nullptr);
@@ -390,8 +356,8 @@ class Judge {
     std::optional<LayersVerdict> layers_{};
     std::optional<PictureDiagnosis> emulations_{};
     Emulated emulated_{};
-    std::optional<program::Fitting> fitting_{};
-    std::vector<program::ScreenMap> screen_{};  // what explains the picture, if any does
+    std::optional<FittedPicture> fitted_{};
+    std::optional<Picture> own_{};
     bool is_by_emulation_ = false, is_habit_ = false, makes_right_ = false;
     Judgement found_{};
 };

@@ -1,0 +1,70 @@
+// tools/oracle/judge/fitted.cpp - asks the three kinds of fits in their order, and makes their lines (fitted.h).
+#include "tools/oracle/judge/fitted.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/oracle/program/drawing/fit_drawings.h"
+
+namespace strata::oracle {
+
+using State = program::Fitting::State;
+
+std::vector<std::string> FittedPicture::mistakes() const {
+    std::vector<std::string> all;
+    for (const program::ScreenMap& map : screen) all.push_back(map.words);
+    if (screen.empty())
+        for (const program::Proof& proof : fitting.found) all.push_back(describe(proof.program));
+    return all;
+}
+
+std::vector<std::string> FittedPicture::leads() const {
+    std::vector<std::string> all;
+    if (fitting.state != State::explained_in_part) return all;
+    for (const program::Proof& proof : fitting.found)
+        all.push_back(fmt::format("{}: {} of {} pixels are wrong then", describe(proof.program), proof.fitness.beyond,
+                                  proof.fitness.pixels));
+    return all;
+}
+
+std::string FittedPicture::lines(std::size_t pixels) const {
+    if (screen.empty()) {
+        const std::string text = to_text(fitting);
+        return text.substr(std::min(text.size(), text.find('\n') + 1));
+    }
+    std::string text;
+    for (std::size_t i = 0; i < screen.size(); ++i) {
+        if (i > 0) text += "  or: " + screen[i].words + '\n';
+        text += fmt::format("    {} of {} pixels are wrong then\n", screen[i].beyond, pixels);
+    }
+    return text;
+}
+
+FittedPicture fitted_picture(const peeling::FrameRequest& input, const verdict::SceneFragments& fragments,
+                             const verdict::Colors& colors) {
+    const program::Lists all = program::lists_of(fragments, colors, true);
+    FittedPicture found{.fitting = fit_drawings(all, program::other_drawings(input, all, colors))};
+    const bool is_pair = found.is_explained() && !found.fitting.found[0].program.edits.empty();
+    if (found.is_explained() && !is_pair) return found;
+    found.screen = explain_by_screen(all, found.fitting.right);
+    if (!found.screen.empty()) return found;
+    program::Fitting fitted = fit(program::lists_of(fragments, colors));
+    if (!is_pair || fitted.state == State::explained) found.fitting = std::move(fitted);
+    return found;
+}
+
+bool is_habit_of(const FittedPicture& seen, const verdict::SceneFragments& fragments, const verdict::Colors& own) {
+    const program::Lists all = program::lists_of(fragments, own, true);
+    const program::Fitting fitting = fit(all);
+    if (!seen.screen.empty()) {
+        const auto maps = explain_by_screen(all, fitting.right);
+        return !maps.empty() && maps[0].words == seen.screen[0].words;
+    }
+    const auto entry_of = [](const program::Fitting& f) {
+        return f.found.empty() || f.found[0].program.edits.empty() ? nullptr : f.found[0].program.edits[0].entry;
+    };
+    return entry_of(fitting) != nullptr && entry_of(fitting) == entry_of(seen.fitting);
+}
+
+}  // namespace strata::oracle
