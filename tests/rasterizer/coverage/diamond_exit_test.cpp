@@ -30,6 +30,8 @@ Rational diamond_distance(const RealPoint& p, int x, int y) {
 
 // The least distance along the segment: at an end, or where it crosses the region's axes.
 bool meets_diamond(const RealPoint& a, const RealPoint& b, int x, int y) {
+    if (std::max(a.x, b.x) < x || std::min(a.x, b.x) > x + 1 || std::max(a.y, b.y) < -y - 1 || std::min(a.y, b.y) > -y)
+        return false;  // beside the pixel's square
     std::vector<Rational> at{0, 1};
     if (a.x != b.x) at.push_back((x + Rational{1, 2} - a.x) / (b.x - a.x));
     if (a.y != b.y) at.push_back((-y - Rational{1, 2} - a.y) / (b.y - a.y));

@@ -29,6 +29,8 @@ Rational distance_to_centre(const RealEnd& p, int x, int y) {
 
 // OpenGL's text: the segment meets the pixel's diamond and does not end in it. No end is on a border here.
 bool leaves_diamond(const RealEnd& a, const RealEnd& b, int x, int y) {
+    if (std::max(a.x, b.x) < x || std::min(a.x, b.x) > x + 1 || std::max(a.y, b.y) < y || std::min(a.y, b.y) > y + 1)
+        return false;  // beside the pixel's square
     std::vector<Rational> at{0, 1};
     if (a.x != b.x) at.push_back((x + Rational{1, 2} - a.x) / (b.x - a.x));
     if (a.y != b.y) at.push_back((y + Rational{1, 2} - a.y) / (b.y - a.y));

@@ -123,11 +123,11 @@ TEST_CASE("judge and diagnose give one state and one first sentence about forty 
 TEST_CASE("of an approximate algorithm a background in the middle between two codes may have either one") {
     using namespace strata::oracle;
     OpenScene opened =
-        open({.scene = "planes:count=8", .algorithm = "weighted_sum", .profile = "ideal", .width = 32, .height = 32});
+        open({.scene = "planes:count=8", .algorithm = "weighted_sum", .profile = "ideal", .width = 16, .height = 16});
     opened.options.background = {0.8f, 0.7f, 0.2f, 1};
     const TargetImage right = MistakeRenderer{opened.input(), *opened.algorithm}.right().targets[0];
     const auto judged = [&](std::uint32_t green, Effort effort) {
-        TargetImage file{.name = "color", .width = 32, .height = 32, .channels = 3, .holds_encoded = true};
+        TargetImage file{.name = "color", .width = 16, .height = 16, .channels = 3, .holds_encoded = true};
         for (std::size_t i = 0; i < right.pixels(); ++i)
             for (int c = 0; c < 3; ++c) {
                 const std::uint32_t code = nearest(Code::unorm8, right.value_at(i, c));
@@ -140,7 +140,7 @@ TEST_CASE("of an approximate algorithm a background in the middle between two co
         CHECK_THAT(judged(178, effort).sentence, StartsWith("right: equal to the picture of weighted_sum"));
         CHECK_THAT(judged(179, effort).sentence,
                    StartsWith("right but for rounding: the picture of weighted_sum; ") &&
-                       EndsWith(" of 1024 pixels have the other of the two codes in whose middle a value lies"));
+                       EndsWith(" of 256 pixels have the other of the two codes in whose middle a value lies"));
     }
     CHECK_THAT(judged(180, Effort::single).sentence, StartsWith("wrong"));
 }

@@ -204,12 +204,6 @@ const Mistake device_mistakes[] = {
      [](AlteredRun& e) { return takes_color(e, Format::rgba16f); }},
     {"color_32f", "colours blended as binary32", ChangedPart::device,
      [](AlteredRun& e) { return takes_color(e, Format::rgba32f); }},
-    {"blend_cuts", "8-bit blending that cuts its results instead of rounding them", ChangedPart::device,
-     [](AlteredRun& e) {
-         if (e.profile.blend_rounding == pipeline::BlendRounding::truncate) return false;
-         e.profile.blend_rounding = pipeline::BlendRounding::truncate;
-         return true;
-     }},
     {"background_lost", "the background lost: black behind the layers", ChangedPart::device,
      [](AlteredRun& e) {
          e.options.background = {0, 0, 0, 1};

@@ -126,7 +126,7 @@ TEST_CASE("a peel with too few passes is diagnosed with their number") {
     write_scene(folder, "stack.json", panes);
     for (const std::string passes : {"1", "2", "3", "4", "5"}) {
         REQUIRE(shell(folder,
-                      "strata render stack.json --size 40x40 --background 0.2,0.3,0.5 -q --algorithm "
+                      "strata render stack.json --size 24x24 --background 0.2,0.3,0.5 -q --algorithm "
                       "front_to_back --max-passes " +
                           passes + " -o few.png")
                     .status == 0);
@@ -139,7 +139,7 @@ TEST_CASE("a peel with too few passes is diagnosed with their number") {
         CHECK_THAT(named_emulation(found), StartsWith("only the nearest " + layers + " of 6 (--max-passes "));
     }
     REQUIRE(
-        shell(folder, "strata render stack.json --size 40x40 -q --algorithm dual --max-passes 2 -o few.png").status ==
+        shell(folder, "strata render stack.json --size 24x24 -q --algorithm dual --max-passes 2 -o few.png").status ==
         0);
     const CommandResult dual = run_strata(folder, {"diagnose", "stack.json", "few.png", "--algorithm", "dual"});
     CHECK_THAT(dual.out, StartsWith("wrong: "));

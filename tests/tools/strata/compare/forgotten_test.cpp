@@ -18,7 +18,7 @@ std::string second_line(const CommandResult& found) {
 }
 
 CommandResult compared(const Folder& folder, const Forgotten& option) {
-    REQUIRE(shell(folder, "strata render teapot --size 64x48 -q -o port.png " + option.made_with).status == 0);
+    REQUIRE(shell(folder, "strata render teapot --size 48x36 -q -o port.png " + option.made_with).status == 0);
     return shell(folder, "strata compare teapot port.png " + option.given);
 }
 

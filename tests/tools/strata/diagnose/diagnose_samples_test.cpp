@@ -16,7 +16,7 @@ using namespace strata::test;
                                          "front_to_back", "--color-format", "rgba8"};
     std::vector<std::string> render{"render"};
     render.insert(render.end(), scene.begin(), scene.end());
-    render.insert(render.end(), {"--size", "48x36", "--no-audit", "-q", "-o", "port.png"});
+    render.insert(render.end(), {"--size", "32x24", "--no-audit", "-q", "-o", "port.png"});
     render.insert(render.end(), drawn_with.begin(), drawn_with.end());
     REQUIRE(run_strata(folder, render).status == 0);
     std::vector<std::string> diagnose{"diagnose"};
