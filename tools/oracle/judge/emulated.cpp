@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <functional>
 
+#include "peeling/render.h"
 #include "pipeline/device/profile.h"
 #include "tools/oracle/diagnosis/diagnosis_report.h"
 #include "tools/oracle/diagnosis/evidence.h"
 #include "tools/oracle/emulations/allowed_options.h"
 #include "tools/oracle/picture/stored_like.h"
+#include "tools/oracle/verdict/other_rules.h"
 
 namespace strata::oracle {
 
@@ -33,6 +35,11 @@ Picture cut(const Picture& picture, const rasterizer::Rect& part) {
     return some;
 }
 
+bool is_seen(const Picture& picture, const Picture& candidate, pipeline::ColorSpace space, const AskedPicture& asked) {
+    return std::ranges::all_of(agreement(stored_like(picture, candidate, space), candidate, asked.tolerances),
+                               std::identity{});
+}
+
 class EmulationSearch {
   public:
     EmulationSearch(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm, const AskedPicture& asked,
@@ -55,8 +62,7 @@ class EmulationSearch {
 
   private:
     [[nodiscard]] bool is_seen(const Picture& picture, const Picture& candidate) const {
-        return std::ranges::all_of(agreement(stored_like(picture, candidate, space_), candidate, asked_.tolerances),
-                                   std::identity{});
+        return oracle::is_seen(picture, candidate, space_, asked_);
     }
 
     [[nodiscard]] bool may_be(const Mistake& mistake) const {
@@ -110,6 +116,25 @@ Emulated emulated_of(const Diagnosis& d) {
 Emulated emulated_alone(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
                         const AskedPicture& asked, const rasterizer::Rect& part) {
     return EmulationSearch{input, algorithm, asked, part}.found();
+}
+
+bool is_picture_of(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm, const AskedPicture& asked,
+                   const rasterizer::Rect& part) {
+    const Picture colors{.file = asked.candidate.file, .targets = {colors_of(asked.candidate)}};
+    if (colors.targets[0].pixels() > most_pixels_of_emulations) return false;
+    const auto square = rasterizer::intersection(part, {0, 0, input.options.width, input.options.height});
+    for (const bool is_whole : {false, true}) {
+        peeling::RenderOptions options = input.options;
+        options.audit = options.keep_layers = false;
+        if (!is_whole) options = verdict::scissored(options, square);
+        const auto run = peeling::Renderer{input.list, input.view, input.profile, options}.render(algorithm);
+        if (run.outcome == peeling::Outcome::refused) return false;
+        Picture own{.file = "", .targets = {as_target(run.frame.color, "color")}};
+        own.targets[0].alpha_form = AlphaForm::premultiplied;
+        const Picture& seen = is_whole ? colors : cut(colors, square);
+        if (!is_seen(is_whole ? own : cut(own, square), seen, input.space, asked)) return false;
+    }
+    return true;
 }
 
 }  // namespace strata::oracle

@@ -32,4 +32,8 @@ inline constexpr std::size_t most_pixels_of_emulations = std::size_t{1} << 18;
 [[nodiscard]] Emulated emulated_alone(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
                                       const AskedPicture& asked, const rasterizer::Rect& part);
 
+// True if the right run has the picture; false, too, if it is refused.
+[[nodiscard]] bool is_picture_of(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
+                                 const AskedPicture& asked, const rasterizer::Rect& part);
+
 }  // namespace strata::oracle

@@ -12,6 +12,8 @@
 #include <optional>
 
 #include "pipeline/device/profile.h"
+#include "pipeline/vertices/polygon_mode.h"
+#include "rasterizer/base/enum_values.h"
 #include "scenes/numbers/srgb_encode.h"
 #include "tools/oracle/fragments/fragments.h"
 #include "tools/oracle/judge/samples_verdict.h"
@@ -134,7 +136,40 @@ struct SceneVariant {
     std::optional<float> alpha{};  // --alpha
     int samples = 1;
     double right = 0, up = 0;  // moved by pixels
+    std::optional<pipeline::PolygonMode> polygon_mode{};
+    std::optional<float> line_width_px{}, point_size_px{};
+    std::optional<rasterizer::DepthPath> depth_path{};
 };
+
+bool is_drawn_with(const pipeline::DrawList& list, std::initializer_list<pipeline::Primitive> any) {
+    return std::ranges::any_of(
+        list.meshes, [&](const pipeline::Mesh& mesh) { return std::ranges::find(any, mesh.primitive) != any.end(); });
+}
+
+// Other shapes of primitives, and other depths.
+std::vector<SceneVariant> with_other_shapes(const peeling::FrameRequest& input) {
+    using pipeline::Primitive;
+    std::vector<SceneVariant> all;
+    const auto& raster = input.options.raster;
+    if (is_drawn_with(input.list, {Primitive::triangles}))
+        for (const auto& [word, mode] :
+             {std::pair{"line", pipeline::PolygonMode::line}, {"point", pipeline::PolygonMode::point}})
+            all.push_back({.words = fmt::format("--polygon-mode {}", word), .polygon_mode = mode});
+    constexpr std::array sizes{1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 8.0f, 10.0f};
+    if (is_drawn_with(input.list, {Primitive::lines, Primitive::line_strips, Primitive::polygon_lines}))
+        for (const float px : sizes)
+            if (px != raster.line_width_px)
+                all.push_back({.words = fmt::format("--line-width {}", px), .line_width_px = px});
+    if (is_drawn_with(input.list, {Primitive::points, Primitive::polygon_points}))
+        for (const float px : sizes)
+            if (px != raster.point_size_px)
+                all.push_back({.words = fmt::format("--point-size {}", px), .point_size_px = px});
+    for (const auto path : enum_values<rasterizer::DepthPath>)
+        if (path != input.options.depth_path.value_or(input.profile.raster.depth_path))
+            all.push_back({.words = fmt::format("--depth-path {}", enum_name(path)), .depth_path = path});
+    for (SceneVariant& way : all) way.alpha = input.options.alpha;
+    return all;
+}
 
 // Without the --alpha given, and with each that the picture shows.
 std::vector<SceneVariant> with_other_alphas(const peeling::FrameRequest& input, const Colors& picture,
@@ -172,6 +207,11 @@ std::vector<SceneVariant> ways(const peeling::FrameRequest& input, const Colors&
         for (const int samples : {4, 2, 8, 1})
             if (samples != input.options.sampling.samples) add(fmt::format("--samples {}", samples), samples, 0, 0);
         if (input.options.sampling.samples > 1) continue;
+        for (SceneVariant way : with_other_shapes(input)) {
+            way.words = words + (words.empty() ? "" : " ") + way.words;
+            way.background = background;
+            all.push_back(std::move(way));
+        }
         for (const double right : {-0.5, 0.0, 0.5})
             for (const double up : {-0.5, 0.0, 0.5})
                 if (right != 0 || up != 0) add("", 1, right, up);
@@ -197,14 +237,20 @@ pipeline::View moved_view(const peeling::FrameRequest& input, const SceneVariant
 }
 
 bool is_right_so(const peeling::FrameRequest& input, const SceneVariant& way, const Colors& picture,
-                 const std::vector<std::uint32_t>& wrong) {
+                 const std::vector<std::uint32_t>& wrong, const IsDrawnBy& is_drawn) {
     const pipeline::View view = moved_view(input, way);
-    peeling::FrameRequest so{input.list, view, input.profile, input.options, input.space};
+    std::optional<pipeline::DrawList> list;
+    if (way.polygon_mode) list = with_polygon_mode(input.list, *way.polygon_mode);
+    peeling::FrameRequest so{list ? *list : input.list, view, input.profile, input.options, input.space};
     so.options.sampling.samples = way.samples;
     if (way.samples == 1) so.options = options_of_one_sample(input);
     so.options.alpha = way.alpha;
+    if (way.line_width_px) so.options.raster.line_width_px = *way.line_width_px;
+    if (way.point_size_px) so.options.raster.point_size_px = *way.point_size_px;
+    if (way.depth_path) so.options.depth_path = way.depth_path;
     if (way.background)
         for (std::size_t c = 0; c < 3; ++c) so.options.background[c] = static_cast<float>((*way.background)[c]);
+    if (is_drawn(so)) return true;
     if (way.samples == 1) return verdict::right_by_rules(so, {"", input.profile}, picture, wrong).has_value();
     for (const auto origin : {pipeline::Origin::upper_left, pipeline::Origin::lower_left}) {
         const OtherRules rules{"", with_origin(input.profile, origin), input.options.raster.interpolation};
@@ -275,16 +321,16 @@ std::string sentence_of(const SceneVariant& way, const peeling::FrameRequest& in
 }  // namespace
 
 Forgotten forgotten_alpha(const peeling::FrameRequest& input, const Colors& picture,
-                          const std::vector<std::uint32_t>& wrong_pixels) {
+                          const std::vector<std::uint32_t>& wrong_pixels, const IsDrawnBy& is_drawn) {
     for (const SceneVariant& way : with_other_alphas(input, picture, wrong_pixels, std::nullopt))
-        if (is_right_so(input, way, picture, wrong_pixels))
+        if (is_right_so(input, way, picture, wrong_pixels, is_drawn))
             return {.sentences = {sentence_of(way, input)}, .makes_right = true};
     return {};
 }
 
 Forgotten forgotten_options(const peeling::FrameRequest& input, const Colors& picture,
-                            const std::vector<std::uint32_t>& wrong_pixels, const std::string& camera,
-                            const ShowProgress& progress) {
+                            const std::vector<std::uint32_t>& wrong_pixels, const IsDrawnBy& is_drawn,
+                            const std::string& camera, const ShowProgress& progress) {
     Forgotten found;
     std::vector<std::string>& sentences = found.sentences;
     const SceneFragments scene{input.with(options_of_one_sample(input)), input.options.fragment_memory};
@@ -294,7 +340,7 @@ Forgotten forgotten_options(const peeling::FrameRequest& input, const Colors& pi
     const std::vector<SceneVariant> tried = ways(input, picture, wrong_pixels, seen);
     for (const SceneVariant& way : tried) {
         if (progress) progress(static_cast<double>(&way - tried.data()) / static_cast<double>(tried.size()));
-        if (!is_right_so(input, way, picture, wrong_pixels)) continue;
+        if (!is_right_so(input, way, picture, wrong_pixels, is_drawn)) continue;
         sentences.push_back(sentence_of(way, input));
         found.makes_right = true;
         return found;

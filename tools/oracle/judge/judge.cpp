@@ -103,7 +103,7 @@ class Judge {
         if (is_right_run) return by_emulation();
         if (layers_->is_explained()) {
             if (!layers_->wrong_colors().empty())
-                take(forgotten_alpha(input_, layers_->colors(), layers_->wrong_colors()));
+                take(forgotten_alpha(input_, layers_->colors(), layers_->wrong_colors(), is_drawn_by()));
             return by_layers();
         }
         if (is_of_one_mistake) return by_emulation();
@@ -179,8 +179,14 @@ class Judge {
     // Asks which option of the view looks forgotten.
     [[nodiscard]] bool is_right_in_another_view() {
         if (layers_->wrong_colors().empty()) return false;
-        take(forgotten_options(input_, layers_->colors(), layers_->wrong_colors(), asked_.camera, asked_.view));
+        take(forgotten_options(input_, layers_->colors(), layers_->wrong_colors(), is_drawn_by(), asked_.camera,
+                               asked_.view));
         return makes_right_;
+    }
+
+    [[nodiscard]] IsDrawnBy is_drawn_by() const {
+        const auto part = verdict::most_wrong(layers_->wrong_colors(), colors_of(asked_.candidate).width);
+        return [this, part](const peeling::FrameRequest& so) { return is_picture_of(so, algorithm_, asked_, part); };
     }
 
     void take(Forgotten view) {

@@ -1,6 +1,9 @@
 // Tests what `strata compare` and `strata diagnose` say of a picture that was made with an option of the view which the
 // command lacks, on pictures that `strata render` draws with it.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
+#include <tuple>
 
 #include "tests/tools/program.h"
 
@@ -40,6 +43,21 @@ TEST_CASE("a forgotten option of the view is named with what makes the picture r
         CHECK(found.status == 1);
         CHECK(second_line(found) == option.second_line);
         CHECK(compared(folder, {option.made_with, option.made_with, ""}).status == 0);
+    }
+}
+
+TEST_CASE("another width or size of lines and points, and another mode of polygons, are named") {
+    const Folder folder;
+    for (const auto& [scene, given, option] : {std::tuple{"random:triangles=12", "", "--polygon-mode line"},
+                                               {"random:triangles=12", "", "--polygon-mode point"},
+                                               {"random:triangles=9", "--polygon-mode line", "--line-width 4"},
+                                               {"splats:points=60", "", "--point-size 5"}}) {
+        const std::string view = fmt::format("{} --size 40x30 {} ", scene, given);
+        REQUIRE(shell(folder, fmt::format("strata render {} {} -q -o port.png", view, option)).status == 0);
+        const CommandResult found = shell(folder, "strata compare " + view + " port.png");
+        INFO(scene << option << ": " << found.out << found.err);
+        CHECK(found.status == 1);
+        CHECK(second_line(found) == fmt::format("  looks forgotten: {}; with it the picture is right", option));
     }
 }
 
