@@ -4,6 +4,7 @@
 #include <strata/catch2.h>
 #include <strata/strata.h>
 
+#include <bit>
 #include <catch2/catch.hpp>
 
 #include "tools/oracle/emulations/catalogue.h"
@@ -143,6 +144,28 @@ TEST_CASE("of an approximate algorithm a background in the middle between two co
                        EndsWith(" of 256 pixels have the other of the two codes in whose middle a value lies"));
     }
     CHECK_THAT(judged(180, Effort::single).sentence, StartsWith("wrong"));
+}
+
+TEST_CASE("floats of an approximate algorithm in the last bits are right and larger differences are not") {
+    using namespace strata::oracle;
+    const OpenScene opened =
+        open({.scene = "planes:count=8", .algorithm = "multi_layer", .profile = "ideal", .width = 16, .height = 16});
+    const Picture own = MistakeRenderer{opened.input(), *opened.algorithm}.right();
+    const auto judged = [&](float change) {
+        Picture port = own;
+        std::size_t i = 0;
+        for (std::uint32_t& word : port.targets[0].codes) {
+            const float value = std::bit_cast<float>(word);
+            if (++i % 4 != 0 && value > 0 && value < 0.9f) word = std::bit_cast<std::uint32_t>(value + change);
+        }
+        return judge(opened.input(), {.candidate = port, .has_alpha = false, .algorithm = opened.algorithm},
+                     Effort::single);
+    };
+    const Judgement right = judged(3e-7f);
+    CHECK(right.is_right);
+    CHECK_THAT(right.sentence, StartsWith("right but for rounding: the picture of multi_layer; ") &&
+                                   EndsWith(" differ, by at most 3e-07"));
+    CHECK_THAT(judged(2e-6f).sentence, !StartsWith("right but for rounding: the picture of"));
 }
 
 TEST_CASE("premultiplied colours in a file of straight ones are right and the first sentence says so") {

@@ -224,8 +224,15 @@ class Judge {
         }
     }
 
-    [[nodiscard]] bool is_equal_but_for_ties() {
+    [[nodiscard]] bool is_equal_but_for_rounding() {
         const TargetImage& colors = colors_of(asked_.candidate);
+        if (const auto floats = rounded_otherwise(colors_of(own()), colors, input_.space)) {
+            found_.state = JudgedState::right;
+            found_.sentence =
+                fmt::format("right but for rounding: the picture of {}; {} of {} pixels differ, by at most {:.1g}",
+                            algorithm_.name, floats->pixels, colors.pixels(), floats->greatest);
+            return true;
+        }
         const auto at_ties = differing_at_ties(colors_of(own()), colors, input_.space);
         if (!at_ties) return false;
         found_.state = JudgedState::right;
@@ -241,7 +248,7 @@ class Judge {
     // An approximate algorithm has a structure of its own; a port that has it, too, is right. A picture with the exact
     // structure is not that of an algorithm that has another one.
     [[nodiscard]] bool is_decided_by_own_structure() {
-        if (is_equal_but_for_ties()) return true;
+        if (is_equal_but_for_rounding()) return true;
         const std::vector<std::string> seen = layers_->mistakes(input_.list);
         if (seen.empty() && !layers_->is_right()) return false;
         const Picture own = own_as_stored();

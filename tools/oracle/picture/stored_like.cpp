@@ -99,6 +99,26 @@ std::optional<std::size_t> differing_at_ties(const TargetImage& rendered, const 
     return pixels;
 }
 
+std::optional<RoundedOtherwise> rounded_otherwise(const TargetImage& rendered, const TargetImage& file,
+                                                  ColorSpace space) {
+    if (rendered.code != Code::single || file.code != Code::single || file.is_grey) return std::nullopt;
+    const std::optional<TargetImage> made = stored_like(rendered, file, space);
+    const TargetImage& own = made ? *made : rendered;
+    constexpr double most = 0x1p-20;
+    RoundedOtherwise found;
+    for (std::size_t pixel = 0; pixel < own.pixels(); ++pixel) {
+        double worst = 0;
+        for (int c = 0; c < std::min(file.channels, own.channels); ++c) {
+            const double value = own.value_at(pixel, c), differs = std::fabs(value - file.value_at(pixel, c));
+            if (!(differs <= most * std::max(1.0, std::fabs(value)))) return std::nullopt;
+            worst = std::max(worst, differs);
+        }
+        found.pixels += worst > 0 ? 1 : 0;
+        found.greatest = std::max(found.greatest, worst);
+    }
+    return found;
+}
+
 Picture stored_like(Picture rendered, const Picture& candidate, ColorSpace space) {
     const auto is_color = [](const TargetImage& t) { return t.meaning == Meaning::color; };
     const auto file = std::ranges::find_if(candidate.targets, is_color);

@@ -26,6 +26,15 @@ namespace strata::oracle {
 [[nodiscard]] std::optional<std::size_t> differing_at_ties(const TargetImage& rendered, const TargetImage& file,
                                                            pipeline::ColorSpace space);
 
+// Of pictures in binary32: the pixels that differ, and by how much, if no value differs by more than a sum of some tens
+// of layers in another order or in binary64 may (2^-20 where values are at most 1); empty otherwise.
+struct RoundedOtherwise {
+    std::size_t pixels = 0;
+    double greatest = 0;
+};
+[[nodiscard]] std::optional<RoundedOtherwise> rounded_otherwise(const TargetImage& rendered, const TargetImage& file,
+                                                                pipeline::ColorSpace space);
+
 // The picture with its colours stored as those of the candidate.
 [[nodiscard]] Picture stored_like(Picture rendered, const Picture& candidate, pipeline::ColorSpace space);
 
