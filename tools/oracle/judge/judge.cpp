@@ -119,12 +119,11 @@ class Judge {
     // What a port does once a pixel that others do for every sample.
     [[nodiscard]] bool is_sample_habit() {
         if (!layers_->samples) return false;
-        const std::string words = sample_habit(input_, layers_->colors(), layers_->wrong_colors().size());
-        if (words.empty()) return false;
+        habit_ = sample_habit(input_, layers_->colors(), layers_->wrong_colors().size());
+        if (!habit_) return false;
         found_.state = JudgedState::explained;
-        found_.mistakes = {words};
-        found_.sentence = "wrong: " + words;
-        is_habit_ = true;
+        found_.mistakes = {habit_->words};
+        found_.sentence = "wrong: " + habit_->words;
         return true;
     }
 
@@ -325,11 +324,13 @@ class Judge {
         text = found_.sentence + '\n';
         for (const std::string& sentence : found_.forgotten) text += "  " + sentence + '\n';
         if (is_named_by_fitting()) text += fitted_->lines(asked_.candidate.targets[0].pixels());
-        if (is_habit_)
-            text += fmt::format("  explains all {} pixels that are not the mean of right samples\n",
-                                layers_->wrong_colors().size());
-        if (layers_ && !is_by_emulation_ && !is_habit_ && !is_named_by_fitting() &&
-            layers_->is_right() == found_.is_right)
+        if (habit_)
+            text += habit_->unexplained == 0
+                        ? fmt::format("  explains all {} pixels that are not the mean of right samples\n",
+                                      layers_->wrong_colors().size())
+                        : fmt::format("  {} pixels are wrong then; {} are not the mean of right samples\n",
+                                      habit_->unexplained, layers_->wrong_colors().size());
+        if (layers_ && !is_by_emulation_ && !habit_ && !is_named_by_fitting() && layers_->is_right() == found_.is_right)
             text += lines_of_layers;
         if (!emulations_) {
             if (layers_->samples && found_.state == JudgedState::not_explained)
@@ -370,8 +371,9 @@ class Judge {
     std::optional<PictureDiagnosis> emulations_{};
     Emulated emulated_{};
     std::optional<FittedPicture> fitted_{};
+    std::optional<NamedHabit> habit_{};
     std::optional<Picture> own_{};
-    bool is_by_emulation_ = false, is_habit_ = false, makes_right_ = false;
+    bool is_by_emulation_ = false, makes_right_ = false;
     Judgement found_{};
 };
 

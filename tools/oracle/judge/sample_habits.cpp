@@ -35,14 +35,42 @@ struct FrontSum {
 
 }  // namespace
 
-SampleColor without_mask(const SamplePixelLists& pixel) {
-    std::vector<SampleFragment> all;
+namespace {
+
+// One list of every fragment that covers a sample, with its number of samples.
+struct CoveringFragment {
+    SampleFragment fragment;
+    double samples = 0;
+};
+
+std::vector<CoveringFragment> covering(const SamplePixelLists& pixel) {
+    std::vector<CoveringFragment> all;
     for (const auto& list : pixel.lists)
-        for (const SampleFragment& f : list)
-            if (std::ranges::find(all, f.primitive, &SampleFragment::primitive) == all.end()) all.push_back(f);
-    std::ranges::stable_sort(all, {}, [](const SampleFragment& f) { return std::pair{f.depth, f.primitive}; });
+        for (const SampleFragment& f : list) {
+            auto found = std::ranges::find(all, f.primitive, [](const auto& one) { return one.fragment.primitive; });
+            if (found == all.end()) found = all.insert(all.end(), {f});
+            found->samples += 1;
+        }
+    std::ranges::stable_sort(all, {}, [](const CoveringFragment& one) {
+        return std::pair{one.fragment.depth, one.fragment.primitive};
+    });
+    return all;
+}
+
+}  // namespace
+
+SampleColor without_mask(const SamplePixelLists& pixel) {
     FrontSum front;
-    for (const SampleFragment& f : all) front.add(f.color, f.alpha);
+    for (const auto& [f, samples] : covering(pixel)) front.add(f.color, f.alpha);
+    return front.over(mean_of(pixel.behind));
+}
+
+SampleColor by_shares(const SamplePixelLists& pixel) {
+    FrontSum front;
+    for (const auto& [f, samples] : covering(pixel)) {
+        const double share = samples / static_cast<double>(pixel.lists.size());
+        front.add({share * f.color[0], share * f.color[1], share * f.color[2]}, share * f.alpha);
+    }
     return front.over(mean_of(pixel.behind));
 }
 
@@ -62,10 +90,13 @@ SampleColor peeled_resolved(const SamplePixelLists& pixel, DepthResolve resolve)
             const bool has = next != list.end();
             // A sample without a fragment keeps the cleared depth.
             const double own = has ? next->stored : 1;
-            if (resolve == DepthResolve::mean)
-                depth += own / count;
-            else if (&list == &pixel.lists[0])
-                depth = own;
+            const bool is_first = &list == &pixel.lists[0];
+            switch (resolve) {
+                case DepthResolve::mean: depth += own / count; break;
+                case DepthResolve::first_sample: depth = is_first ? own : depth; break;
+                case DepthResolve::nearest: depth = is_first ? own : std::min(depth, own); break;
+                case DepthResolve::farthest: depth = is_first ? own : std::max(depth, own); break;
+            }
             if (!has) continue;
             is_empty = false;
             for (std::size_t c = 0; c < 3; ++c) layer[c] += next->color[c] / count;
@@ -86,10 +117,15 @@ struct SampleHabit {
 };
 const SampleHabit habits[] = {
     {"a fragment covers the whole pixel: the samples that it covers are not kept in its list", without_mask},
+    {"a fragment covers the whole pixel with its alpha times its share of covered samples", by_shares},
     {"layers are resolved before the next peel, which compares with the mean of the samples' depths",
      [](const SamplePixelLists& pixel) { return peeled_resolved(pixel, DepthResolve::mean); }},
     {"layers are resolved before the next peel, which compares with the first sample's depth",
      [](const SamplePixelLists& pixel) { return peeled_resolved(pixel, DepthResolve::first_sample); }},
+    {"layers are resolved before the next peel, which compares with the nearest of the samples' depths",
+     [](const SamplePixelLists& pixel) { return peeled_resolved(pixel, DepthResolve::nearest); }},
+    {"layers are resolved before the next peel, which compares with the farthest of the samples' depths",
+     [](const SamplePixelLists& pixel) { return peeled_resolved(pixel, DepthResolve::farthest); }},
 };
 
 // With the depth that is stored at its sample, which is in `at_sample`.
@@ -122,9 +158,11 @@ void for_each_pixel(const verdict::Samples& samples, const verdict::Samples& at_
         }
 }
 
-bool is_picture_of(const SampleHabit& habit, const verdict::Samples& samples, const verdict::Samples& at_samples,
-                   const verdict::Colors& picture, std::size_t wrong) {
-    const std::size_t most = std::max<std::size_t>(2, wrong / 40);
+// The number of wrong pixels; empty if they are too many.
+std::optional<std::size_t> wrong_by(const SampleHabit& habit, const verdict::Samples& samples,
+                                    const verdict::Samples& at_samples, const verdict::Colors& picture,
+                                    std::size_t wrong) {
+    const std::size_t most = std::max<std::size_t>(2, wrong / 25);
     constexpr double two_codes = 2.01 / 255;
     std::size_t off = 0;
     for_each_pixel(samples, at_samples, [&](int x, int y, const SamplePixelLists& pixel) {
@@ -137,24 +175,26 @@ bool is_picture_of(const SampleHabit& habit, const verdict::Samples& samples, co
             }
         return off <= most;
     });
-    return off <= most;
+    return off <= most ? std::optional{off} : std::nullopt;
 }
 
 }  // namespace
 
-std::string sample_habit(const peeling::FrameRequest& input, const verdict::Colors& picture, std::size_t wrong) {
+std::optional<NamedHabit> sample_habit(const peeling::FrameRequest& input, const verdict::Colors& picture,
+                                       std::size_t wrong) {
     constexpr std::size_t few = 10;
-    if (wrong < few) return "";
+    if (wrong < few) return std::nullopt;
     using rasterizer::Interpolation;
     const verdict::Samples at_samples = samples_by({"", input.profile, Interpolation::sample}, input);
     for (const Interpolation interpolation : {input.options.raster.interpolation, Interpolation::centre}) {
         const verdict::Samples samples = samples_by({"", input.profile, interpolation}, input);
-        if (!std::ranges::all_of(samples, [](const auto& s) { return s->keeps(); })) return "";
+        if (!std::ranges::all_of(samples, [](const auto& s) { return s->keeps(); })) return std::nullopt;
         for (const SampleHabit& habit : habits)
-            if (is_picture_of(habit, samples, at_samples, picture, wrong)) return std::string{habit.words};
+            if (const auto off = wrong_by(habit, samples, at_samples, picture, wrong))
+                return NamedHabit{std::string{habit.words}, *off};
         if (input.options.raster.interpolation == Interpolation::centre) break;
     }
-    return "";
+    return std::nullopt;
 }
 
 }  // namespace strata::oracle

@@ -1,12 +1,13 @@
-// tools/oracle/judge/sample_habits.h - what ports with several samples per pixel do once a pixel: lists without masks,
+// tools/oracle/judge/sample_habits.h - what ports with several samples per pixel do once a pixel: lists without masks
 // and peels of resolved targets.
 //
 // Rule     The fragments of all samples are composited as such a port does; a habit is named if the picture is that of
-//          one, to 2 codes, at all pixels but a 40th of the wrong ones, with the samples' own colours or the pixel's.
+//          one, to 2 codes, at all pixels but a 25th of the wrong ones, with the samples' own colours or the pixel's.
 // Tests    tests/tools/oracle/judge/sample_habits_test.cpp: pictures by plain code on two samples
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,13 +34,19 @@ struct SamplePixelLists {
 
 // One list for the pixel, of every fragment that covers a sample.
 [[nodiscard]] SampleColor without_mask(const SamplePixelLists& pixel);
+// The same, where the alpha of each is multiplied by its share of covered samples.
+[[nodiscard]] SampleColor by_shares(const SamplePixelLists& pixel);
 // How a peel resolves the depths that the next pass compares with.
-enum class DepthResolve : std::uint8_t { mean, first_sample };
+enum class DepthResolve : std::uint8_t { mean, first_sample, nearest, farthest };
 // Layers and their depths are resolved after every pass.
 [[nodiscard]] SampleColor peeled_resolved(const SamplePixelLists& pixel, DepthResolve resolve);
 
-// In words; "" if no habit gives the picture. `wrong`: the number of pixels that are wrong for right samples.
-[[nodiscard]] std::string sample_habit(const peeling::FrameRequest& input, const verdict::Colors& picture,
-                                       std::size_t wrong);
+struct NamedHabit {
+    std::string words{};
+    std::size_t unexplained = 0;  // pixels that are wrong by it
+};
+// Empty if no habit gives the picture. `wrong`: the number of pixels that are wrong for right samples.
+[[nodiscard]] std::optional<NamedHabit> sample_habit(const peeling::FrameRequest& input, const verdict::Colors& picture,
+                                                     std::size_t wrong);
 
 }  // namespace strata::oracle

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+using strata::oracle::by_shares;
 using strata::oracle::DepthResolve;
 using strata::oracle::peeled_resolved;
 using strata::oracle::SampleColor;
@@ -54,4 +55,20 @@ TEST_CASE("a peel that compares with the first sample's depth loses what the oth
     // Where the first sample has nothing, its depth is the cleared one: the peel ends.
     check_color(peeled_resolved({{{}, {red(0.1), green(0.25)}}, {sky, sky}}, DepthResolve::first_sample),
                 {0.25, 0, 0.75});
+}
+
+TEST_CASE("a peel that compares with the nearest or farthest depth of the samples repeats or loses the others'") {
+    // Three passes: behind 0.1 red is found at both samples, at 0.3 again; behind 0.3 once more at the second.
+    const SamplePixelLists apart{{{red(0.3)}, {green(0.1), red(0.9)}}, {sky, sky}};
+    const double second = 0.5 * 0.5, third = 0.25 * 0.25;
+    check_color(peeled_resolved(apart, DepthResolve::nearest), {0.25 + second + third, 0.25, 0.25 * 0.75});
+    // The farthest is 0.3, behind which red at 0.9 is left at one of two samples.
+    check_color(peeled_resolved(apart, DepthResolve::farthest), {0.25 + 0.5 * 0.25, 0.25, 0.5 * 0.75});
+}
+
+TEST_CASE("alphas times their share of samples hide less than the samples that are covered") {
+    check_color(by_shares({{{red(0.3)}, {}}, {sky, sky}}), {0.25, 0, 0.75});
+    check_color(by_shares({{{red(0.3)}, {red(0.3)}}, {sky, sky}}), {0.5, 0, 0.5});
+    // Half a red of alpha 1/4 behind half a green of 1/4; samples would have 1/4 of each.
+    check_color(by_shares({{{red(0.3)}, {green(0.2)}}, {sky, sky}}), {0.1875, 0.25, 0.5625});
 }
