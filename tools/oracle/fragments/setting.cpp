@@ -23,6 +23,7 @@ std::string describe(const DrawingOrder& order) {
     }
     if (order.faces == FaceOrder::back_first_in_instance) text += ", back faces of each instance first";
     if (order.faces == FaceOrder::back_first) text += ", all back faces first";
+    if (order.faces == FaceOrder::front_first) text += ", all front faces first";
     return text;
 }
 

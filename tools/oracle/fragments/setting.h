@@ -2,8 +2,8 @@
 // draw its instances and triangles.
 //
 // Rule     Engines sort instances by the depth of some point of each, far first, and draw back faces before front
-//          faces, per instance or in the whole scene. A drawing order is a number: 3 times InstanceOrder plus
-//          FaceOrder.
+//          faces, per instance or in the whole scene, or front faces first by mistake. A drawing order is a number: 4
+//          times InstanceOrder plus FaceOrder.
 // Tests    tests/tools/oracle/fragments/setting_test.cpp
 #pragma once
 #include <array>
@@ -34,8 +34,8 @@ enum class InstanceOrder : std::uint8_t {
     box_near_first
 };
 inline constexpr std::uint32_t instance_order_count = 7;
-enum class FaceOrder : std::uint8_t { listed, back_first_in_instance, back_first };
-inline constexpr std::uint32_t face_order_count = 3;
+enum class FaceOrder : std::uint8_t { listed, back_first_in_instance, back_first, front_first };
+inline constexpr std::uint32_t face_order_count = 4;
 
 struct DrawingOrder {
     InstanceOrder instances = InstanceOrder::listed;

@@ -31,7 +31,8 @@ struct AskedPicture {
     Tolerances tolerances{};
     int limit = 0;
     const std::vector<PassPicture>* passes = nullptr;
-    std::function<bool()> is_right_if_linear{};  // if the frame had a linear color space; empty: not asked
+    // If the frame had a linear color space; empty: not asked. `is_narrow`: by rounding that leaves little open.
+    std::function<bool(bool is_narrow)> is_right_if_linear{};
     ShowProgress layers{}, view{}, emulations{}, pairs{};
 };
 

@@ -180,12 +180,20 @@ class Judge {
         if (layers_->wrong_colors().empty()) return false;
         take(forgotten_options(input_, layers_->colors(), layers_->wrong_colors(), is_drawn_by(), asked_.camera,
                                asked_.view));
+        if (!makes_right_ && asked_.is_right_if_linear && asked_.is_right_if_linear(true))
+            take({.sentences = {"looks forgotten: --color-space linear; with it the picture is right"},
+                  .makes_right = true});
         return makes_right_;
     }
 
     [[nodiscard]] IsDrawnBy is_drawn_by() const {
         const auto part = verdict::most_wrong(layers_->wrong_colors(), colors_of(asked_.candidate).width);
-        return [this, part](const peeling::FrameRequest& so) { return is_picture_of(so, algorithm_, asked_, part); };
+        return [this, part](const peeling::FrameRequest& so) {
+            // Where no algorithm is stated, the two peels blend in different orders.
+            return is_picture_of(so, algorithm_, asked_, part) ||
+                   (asked_.algorithm == nullptr &&
+                    is_picture_of(so, *peeling::find_algorithm("front_to_back"), asked_, part));
+        };
     }
 
     void take(Forgotten view) {
@@ -295,7 +303,7 @@ class Judge {
         if (layers_ && layers_->single) {
             verdict::PictureVerdict& single = *layers_->single;
             single.found.distinguishing_command = distinguishing_command(single.found);
-            if (shows_linear_light() && asked_.is_right_if_linear && asked_.is_right_if_linear())
+            if (shows_linear_light() && asked_.is_right_if_linear && asked_.is_right_if_linear(false))
                 single.reading += "  with --color-space linear the picture is right\n";
         }
         if (makes_right_ || (found_.state == JudgedState::explained && !(layers_ && layers_->is_explained())))

@@ -33,9 +33,10 @@ std::uint64_t StackMaker::drawn(const Fragment& f, std::uint32_t number) const {
     switch (order.faces) {
         case FaceOrder::listed: return instance << 33 | f.primitive;
         case FaceOrder::back_first_in_instance: return instance << 33 | is_front << 32 | f.primitive;
-        case FaceOrder::back_first: break;
+        case FaceOrder::back_first: return is_front << 62 | instance << 33 | f.primitive;
+        case FaceOrder::front_first: break;
     }
-    return is_front << 62 | instance << 33 | f.primitive;
+    return (1 - is_front) << 62 | instance << 33 | f.primitive;
 }
 
 void StackMaker::choose_by_number(const Rule& rule) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <sstream>
 
@@ -19,10 +20,13 @@
 #include "scenes/packs/plain_triangles.h"
 #include "tools/oracle/compare/drawings.h"
 #include "tools/oracle/compare/report.h"
+#include "tools/oracle/judge/emulated.h"
 #include "tools/oracle/judge/judge.h"
 #include "tools/oracle/judge/layers_verdict.h"
 #include "tools/oracle/picture/stored_like.h"
 #include "tools/oracle/search/edits.h"
+#include "tools/oracle/verdict/equal_picture.h"
+#include "tools/oracle/verdict/other_profile.h"
 #include "tools/strata/compare/compare_pages.h"
 #include "tools/strata/progress.h"
 #include "tools/strata/recorded_command.h"
@@ -224,13 +228,25 @@ oracle::ShowProgress shares_of(Progress& bar) {
     return [&bar](double share) { bar.show(share); };
 }
 
-// Whether a picture is right with --color-space linear.
-bool is_right_if_linear(SceneQuestion question, const oracle::Picture& candidate) {
+// Whether a picture is right with --color-space linear (AskedPicture).
+bool is_right_if_linear(SceneQuestion question, const oracle::Picture& candidate, bool is_narrow) {
     if (question.run.scene_options.color_space == pipeline::ColorSpace::linear || scenes::is_pack(question.run.scene))
         return false;
     question.run.scene_options.color_space = pipeline::ColorSpace::linear;
     const Session session = open_at_size(question, colors_of(candidate), candidate.file);
     const peeling::FrameRequest input = session.request(question.run.render, pipeline::ColorSpace::linear);
+    if (is_narrow) {
+        namespace verdict = oracle::verdict;
+        verdict::SceneFragments fragments{input, input.options.fragment_memory};
+        const peeling::Algorithm& peel =
+            question.algorithm.empty() ? *peeling::find_algorithm("dual") : *question.run.algorithms[0];
+        if (oracle::is_picture_of(input, peel, {.candidate = candidate}, fullest(fragments))) return true;
+        return std::ranges::any_of(
+            std::array{verdict::ColorStorage::encoded, verdict::ColorStorage::srgb_target}, [&](auto stored) {
+                fragments.set_stored(stored);
+                return right_narrowly(fragments, verdict::Colors{colors_of(candidate)}).has_value();
+            });
+    }
     return oracle::judge_layers(
                input,
                {.candidate = candidate, .is_form_stated = question.is_form_stated, .has_alpha = question.has_alpha})
@@ -252,7 +268,7 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
              .algorithm = question.algorithm.empty() ? nullptr : question.run.algorithms[0],
              .camera = camera_in_words(question.run),
              .tolerances = {.channels = question.has_alpha ? oracle::ColorChannels::all : oracle::ColorChannels::rgb},
-             .is_right_if_linear = [&] { return is_right_if_linear(question, candidate); },
+             .is_right_if_linear = [&](bool is_narrow) { return is_right_if_linear(question, candidate, is_narrow); },
              .layers = shares_of(layers),
              .view = shares_of(view)},
             oracle::Effort::single);

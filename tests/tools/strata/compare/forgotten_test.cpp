@@ -46,12 +46,13 @@ TEST_CASE("a forgotten option of the view is named with what makes the picture r
     }
 }
 
-TEST_CASE("another width or size of lines and points, and another mode of polygons, are named") {
+TEST_CASE("another width or size of lines and points, another mode of polygons, and linear light are named") {
     const Folder folder;
     for (const auto& [scene, given, option] : {std::tuple{"random:triangles=12", "", "--polygon-mode line"},
                                                {"random:triangles=12", "", "--polygon-mode point"},
                                                {"random:triangles=9", "--polygon-mode line", "--line-width 4"},
-                                               {"splats:points=60", "", "--point-size 5"}}) {
+                                               {"splats:points=60", "", "--point-size 5"},
+                                               {"random:triangles=12", "", "--color-space linear"}}) {
         const std::string view = fmt::format("{} --size 40x30 {} ", scene, given);
         REQUIRE(shell(folder, fmt::format("strata render {} {} -q -o port.png", view, option)).status == 0);
         const CommandResult found = shell(folder, "strata compare " + view + " port.png");
