@@ -92,7 +92,8 @@ PlyHeader header_of(std::string_view file, const std::string& path) {
                                                             : PlyProperty{bytes_of_type(second), 0});
         }
     }
-    return {};  // without end_header the loader refuses the file
+    // Assimp would search for it without an end.
+    throw InputError(path, "header", "a line end_header", "the end of the file");
 }
 
 // Reads the values behind a header, one after the other; each call is false if the file ends before.
@@ -164,15 +165,71 @@ std::uint64_t check_ply_counts(std::string_view file, const std::string& path) {
     return edges == header.elements.end() ? 0 : edges->count;
 }
 
-// The counts of vertices and faces are the first two numbers; only words stand before, and comments between.
+namespace {
+
+// The words of an OFF file's lines, without comments and empty lines.
+class OffLines {
+  public:
+    explicit OffLines(std::string_view file) : rest_{file} {}
+
+    // Empty at the end of the file.
+    std::vector<std::string_view> next() {
+        std::vector<std::string_view> words;
+        while (words.empty() && !rest_.empty()) {
+            const std::size_t stop = std::min(rest_.find('\n'), rest_.size());
+            std::string_view line = rest_.substr(0, stop);
+            rest_.remove_prefix(std::min(stop + 1, rest_.size()));
+            ++number_;
+            line = line.substr(0, line.find('#'));
+            constexpr std::string_view blanks = " \t\r";
+            while (line.find_first_not_of(blanks) != line.npos) {
+                line.remove_prefix(line.find_first_not_of(blanks));
+                words.push_back(line.substr(0, line.find_first_of(blanks)));
+                line.remove_prefix(words.back().size());
+            }
+        }
+        return words;
+    }
+    [[nodiscard]] std::string place() const { return "line " + std::to_string(number_); }
+
+  private:
+    std::string_view rest_;
+    int number_ = 0;
+};
+
+}  // namespace
+
+// The counts of vertices and faces are the first two numbers; only words stand before, and comments between. Vertices
+// and faces have a line each, as Assimp reads them.
 void check_off_counts(std::string_view file, const std::string& path) {
-    std::istringstream lines{std::string{file.substr(0, 4096)}};
-    int found = 0;
-    for (std::string line; found < 2 && std::getline(lines, line);) {
-        std::istringstream words{line.substr(0, line.find('#'))};
-        for (std::string word; found < 2 && words >> word;)
-            if (found > 0 || std::string_view{"-0123456789"}.find(word.front()) != std::string_view::npos)
-                claimed(word, file, path, found++ == 0 ? "vertices" : "faces");
+    OffLines lines{file};
+    std::array<std::uint64_t, 2> counts{};
+    std::size_t found = 0;
+    while (found < 2) {
+        const std::vector<std::string_view> words = lines.next();
+        if (words.empty()) throw InputError(path, "header", "the numbers of vertices and faces", "the end of the file");
+        for (const std::string_view word : words)
+            if (found < 2 && (found > 0 || std::string_view{"-0123456789"}.find(word.front()) != word.npos)) {
+                counts[found] = claimed(std::string{word}, file, path, found == 0 ? "vertices" : "faces");
+                ++found;
+            }
+    }
+    for (std::uint64_t i = 0; i < counts[0]; ++i)
+        if (lines.next().empty())
+            throw InputError(path, "vertices", std::to_string(counts[0]) + " lines", std::to_string(i));
+    for (std::uint64_t i = 0; i < counts[1]; ++i) {
+        const std::vector<std::string_view> words = lines.next();
+        if (words.empty()) throw InputError(path, "faces", std::to_string(counts[1]) + " lines", std::to_string(i));
+        const auto corners = whole_number(words[0]);
+        if (!corners || *corners == 0 || *corners >= words.size())
+            throw InputError(path, lines.place(), "the number of a face's corners and their vertices",
+                             "'" + std::string{words[0]} + "' and " + std::to_string(words.size() - 1) + " numbers");
+        for (std::size_t c = 1; c <= *corners; ++c) {
+            const auto vertex = whole_number(words[c]);
+            if (!vertex || *vertex >= counts[0])
+                throw InputError(path, lines.place(), "the number of a vertex below " + std::to_string(counts[0]),
+                                 "'" + std::string{words[c]} + "'");
+        }
     }
 }
 

@@ -47,6 +47,7 @@ class ModelFolder {
         if (relative == fs::path(path_).filename()) {
             check_model_memory();
             std::vector<std::byte> bytes = bytes_of(path_);
+            if (bytes.empty()) throw InputError(path_, "size", "a model", "an empty file");
             const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
             if (has_ending(path_, ".ply")) edges_ = models::check_ply_counts(text, path_);
             if (has_ending(path_, ".off")) models::check_off_counts(text, path_);

@@ -147,7 +147,7 @@ TEST_CASE("vertex colours of a PLY file are drawn and a colour with alpha below 
 
 TEST_CASE("a file that is not a model or of another format is rejected with an error message") {
     const strata::test::OwnFolder folder;
-    CHECK_THROWS_WITH(load_scene(put(folder, "a.ply", "ply\nnothing"), {}),
+    CHECK_THROWS_WITH(load_scene(put(folder, "a.ply", "ply\nend_header\nnothing"), {}),
                       Contains("a.ply: content: expected a model that Assimp can read"));
     CHECK_THROWS_WITH(load_scene(put(folder, "b.obj",
                                      "version https://git-lfs.github.com/spec/v1\noid sha256:" + std::string(64, 'a') +
@@ -210,4 +210,32 @@ TEST_CASE("a PLY or OFF file that claims more than its bytes hold is refused bef
           "g.ply: element face: expected 1 elements, found the values of 0");
     CHECK_THAT(message("a.off", with(off, "3 1 0", "3 99999999 0")), Contains("faces: ") && Contains("'99999999'"));
     CHECK_THAT(message("b.off", with(off, "3 1 0", "# 9\n-1 1 0")), Contains("vertices: ") && Contains("'-1'"));
+}
+
+TEST_CASE("an empty model, a PLY file cut off in its header and an OFF file with other corners are refused") {
+    const strata::test::OwnFolder folder;
+    const auto message = [&](const std::string& name, const std::string& bytes) -> std::string {
+        try {
+            static_cast<void>(load_scene(put(folder, name, bytes), {}));
+            return "none";
+        } catch (const InputError& error) {
+            return std::string{error.what()}.substr(folder.path().size() + 1);
+        }
+    };
+    for (const std::string name : {"e.ply", "e.obj", "e.stl", "e.off"})
+        CHECK(message(name, "") == name + ": size: expected a model, found an empty file");
+    for (std::size_t length = 1; length < ply.find("end_header"); ++length)
+        CHECK(message("cut.ply", ply.substr(0, length)).starts_with("cut.ply: "));
+    const auto with_face = [&](const std::string& face) { return off.substr(0, off.find("3 0 1 2")) + face + "\n"; };
+    CHECK(message("a.off", with_face("3 0 1 2")) == "none");
+    CHECK(message("a.off", with_face("3 0 1 2 0.5 0.5 0.5")) == "none");
+    CHECK(message("a.off", with_face("3 0 1 3")) ==
+          "a.off: line 6: expected the number of a vertex below 3, found '3'");
+    CHECK(message("a.off", with_face("3 0 1 -1")) ==
+          "a.off: line 6: expected the number of a vertex below 3, found '-1'");
+    CHECK(
+        message("a.off", with_face("2000000000 0 1 2")) ==
+        "a.off: line 6: expected the number of a face's corners and their vertices, found '2000000000' and 3 numbers");
+    CHECK(message("a.off", "OFF # of\n\n3 1\n0 0 0\n1 0 0\n") == "a.off: vertices: expected 3 lines, found 2");
+    CHECK(message("a.off", "OFF 3 1 0\n0 0 0\n1 0 0\n# up\n0 1 0\n") == "a.off: faces: expected 1 lines, found 0");
 }
