@@ -13,6 +13,7 @@
 #include "rasterizer/base/enum_values.h"
 #include "tools/oracle/compare/report_json.h"
 #include "tools/oracle/diagnosis/diagnosis_report.h"
+#include "tools/oracle/judge/another_camera.h"
 #include "tools/oracle/judge/distinguish.h"
 #include "tools/oracle/judge/emulated.h"
 #include "tools/oracle/judge/fitted.h"
@@ -99,6 +100,7 @@ class Judge {
             if (is_decided_by_own_structure()) return;
             if (is_right_run) return by_emulation();
         }
+        if (layers_->is_undecided() && is_of_another_camera()) return;
         if (layers_->is_right()) return layers_->lost_at_ties() > 0 && is_of_one_mistake ? by_emulation() : by_layers();
         if (is_right_run) return by_emulation();
         if (layers_->is_explained()) {
@@ -112,6 +114,7 @@ class Judge {
         if (is_open && emulated_.kind == Kind::mistakes) return by_emulation();
         if (is_open && is_of_another_peel()) return by_emulation();
         if (is_open && is_fitted()) return;
+        if (is_open && is_of_another_camera()) return;
         by_layers();
         if (fitted_) add_fitted_leads();
     }
@@ -159,6 +162,18 @@ class Judge {
         found_.mistakes = fitted.mistakes();
         found_.sentence = "wrong: " + found_.mistakes[0];
         fitted_ = std::move(fitted);
+        return true;
+    }
+
+    // A camera that is a little off moves edges, which another rasterizer's snapping may excuse.
+    [[nodiscard]] bool is_of_another_camera() {
+        if (!layers_->single) return false;
+        const auto camera = another_camera(input_, algorithm_, layers_->colors());
+        if (!camera) return false;
+        found_.state = JudgedState::explained;
+        found_.mistakes = {"another camera: " + camera->words};
+        found_.sentence = camera->sentence(asked_.candidate.targets[0].pixels());
+        found_.forgotten.clear();
         return true;
     }
 
@@ -332,13 +347,9 @@ class Judge {
         text = found_.sentence + '\n';
         for (const std::string& sentence : found_.forgotten) text += "  " + sentence + '\n';
         if (is_named_by_fitting()) text += fitted_->lines(asked_.candidate.targets[0].pixels());
-        if (habit_)
-            text += habit_->unexplained == 0
-                        ? fmt::format("  explains all {} pixels that are not the mean of right samples\n",
-                                      layers_->wrong_colors().size())
-                        : fmt::format("  {} pixels are wrong then; {} are not the mean of right samples\n",
-                                      habit_->unexplained, layers_->wrong_colors().size());
-        if (layers_ && !is_by_emulation_ && !habit_ && !is_named_by_fitting() && layers_->is_right() == found_.is_right)
+        if (habit_) text += habit_->line(layers_->wrong_colors().size());
+        if (layers_ && !is_by_emulation_ && (found_.state != JudgedState::explained || layers_->is_explained()) &&
+            layers_->is_right() == found_.is_right)
             text += lines_of_layers;
         if (!emulations_) {
             if (layers_->samples && found_.state == JudgedState::not_explained)

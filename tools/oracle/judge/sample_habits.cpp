@@ -1,6 +1,8 @@
 // tools/oracle/judge/sample_habits.cpp - composites samples in the ways of ports (sample_habits.h).
 #include "tools/oracle/judge/sample_habits.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -179,6 +181,12 @@ std::optional<std::size_t> wrong_by(const SampleHabit& habit, const verdict::Sam
 }
 
 }  // namespace
+
+std::string NamedHabit::line(std::size_t wrong) const {
+    return unexplained == 0
+               ? fmt::format("  explains all {} pixels that are not the mean of right samples\n", wrong)
+               : fmt::format("  {} pixels are wrong then; {} are not the mean of right samples\n", unexplained, wrong);
+}
 
 std::optional<NamedHabit> sample_habit(const peeling::FrameRequest& input, const verdict::Colors& picture,
                                        std::size_t wrong) {

@@ -44,6 +44,8 @@ enum class DepthResolve : std::uint8_t { mean, first_sample, nearest, farthest }
 struct NamedHabit {
     std::string words{};
     std::size_t unexplained = 0;  // pixels that are wrong by it
+    // "  explains all 12 pixels that are not the mean of right samples\n"
+    [[nodiscard]] std::string line(std::size_t wrong) const;
 };
 // Empty if no habit gives the picture. `wrong`: the number of pixels that are wrong for right samples.
 [[nodiscard]] std::optional<NamedHabit> sample_habit(const peeling::FrameRequest& input, const verdict::Colors& picture,
