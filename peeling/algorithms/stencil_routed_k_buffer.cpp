@@ -11,7 +11,7 @@
 
 #include "peeling/algorithms/entry.h"
 #include "peeling/programs/depth_range.h"
-#include "peeling/programs/sample_lists.h"
+#include "peeling/programs/fixed_passes/sample_lists.h"
 #include "pipeline/region/region_shortcuts.h"
 
 namespace strata::peeling::listing::stencil_routed_k_buffer {

@@ -15,6 +15,9 @@ namespace {
 
 void check_algorithm_options(const Requirements& its, const AlgorithmOptions& o) {
     its.listed("algorithm.weight", o.weight);
+    if (o.weight_formula && !is_complete(*o.weight_formula))
+        its.fail(FieldName{"algorithm.weight_formula"}, "steps that find their operands and leave one value",
+                 static_cast<int>(o.weight_formula->steps.size()));
     its.listed("algorithm.overflow", o.overflow);
     if (o.tail) its.listed("algorithm.tail", *o.tail);
     its.listed("algorithm.list_granularity", o.list_granularity);

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "peeling/programs/weight_formula.h"
+
 namespace strata::peeling {
 
 // The weight of a fragment in weighted_blended, McGuire and Bavoil 2013 (peeling/reference/algorithms.md 18): equations
@@ -22,12 +24,13 @@ enum class ListGranularity : std::uint8_t { sample, pixel };
 inline constexpr int most_nodes = 8, most_stochastic_samples = 8;
 
 struct AlgorithmOptions {
-    Weight weight = Weight::eq10;  // weighted_blended, weighted_blended_shared, tails
-    int nodes = 4;                 // k, nodes per pixel: multi_layer, adaptive, atomic_loop, hybrid_transparency
-    std::optional<Tail> tail{};    // atomic_loop (blend), hybrid_transparency (average), front_to_back and dual (none)
-    int pixel_nodes = 0;           // linked_list: nodes per pixel; 0: no limit
-    int frame_nodes = 0;           // linked_list: nodes per frame; 0: no limit
-    Overflow overflow{};           // linked_list
+    Weight weight = Weight::eq10;                   // weighted_blended, weighted_blended_shared, tails
+    std::optional<WeightFormula> weight_formula{};  // instead of `weight`
+    int nodes = 4;               // k, nodes per pixel: multi_layer, adaptive, atomic_loop, hybrid_transparency
+    std::optional<Tail> tail{};  // atomic_loop (blend), hybrid_transparency (average), front_to_back and dual (none)
+    int pixel_nodes = 0;         // linked_list: nodes per pixel; 0: no limit
+    int frame_nodes = 0;         // linked_list: nodes per frame; 0: no limit
+    Overflow overflow{};         // linked_list
     ListGranularity list_granularity{};  // algorithms with lists of fragments (Algorithm::has_lists)
     int moments = 4;                     // moments: 4, 6 or 8
     std::optional<float> moment_bias{};  // moments: share of a fixed distribution, 0 to 1; default by `moments`

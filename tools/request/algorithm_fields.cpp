@@ -1,6 +1,7 @@
 // tools/request/algorithm_fields.cpp - the options of single algorithms.
 #include "tools/request/groups.h"
 #include "tools/request/make_field.h"
+#include "tools/request/weight_words.h"
 
 namespace strata::tools {
 
@@ -43,15 +44,40 @@ OptionField word(const std::string& name, const std::vector<Choice<T>>& choices,
                                                                               help);
 }
 
+// An equation's name, or a formula.
+OptionField weight_field() {
+    const auto set = [](PictureRequest& request, std::string_view text) {
+        AlgorithmOptions& options = request.render.algorithm;
+        const auto named = to_choice(weights, text);
+        auto formula = named ? std::nullopt : to_weight_formula(text);
+        if (!named && !formula) return false;
+        options.weight = named.value_or(AlgorithmOptions{}.weight);
+        options.weight_formula = std::move(formula);
+        return true;
+    };
+    const auto write = [](const PictureRequest& request) {
+        const AlgorithmOptions& options = request.render.algorithm;
+        return options.weight_formula ? options.weight_formula->text : name_of(weights, options.weight);
+    };
+    const auto copy = [](PictureRequest& to, const PictureRequest& from) {
+        to.render.algorithm.weight = from.render.algorithm.weight;
+        to.render.algorithm.weight_formula = from.render.algorithm.weight_formula;
+    };
+    return joint(OptionGroup::algorithm,
+                 {"weight", "eq7|eq8|eq9|eq10|constant|FORMULA",
+                  "weight of a fragment in weighted_blended and in tails, by McGuire and Bavoil's equation (default "
+                  "eq10), or by a formula of z, distance and alpha such as 'alpha*exp(-10*z)'",
+                  one_of(names_of(weights)) +
+                      ", or a formula of z, distance, alpha, numbers, + - * / ( ), exp, min, max, pow and clamp"},
+                 set, write, copy);
+}
+
 }  // namespace
 
 std::vector<OptionField> algorithm_fields() {
     using O = AlgorithmOptions;
     return {
-        read_by({"weighted_blended", "weighted_blended_shared"},
-                word<&O::weight>("weight", weights,
-                                 "weight of a fragment in weighted_blended and in tails, by McGuire and Bavoil's "
-                                 "equation (default eq10)")),
+        read_by({"weighted_blended", "weighted_blended_shared"}, weight_field()),
         read_by(
             {"multi_layer", "adaptive", "atomic_loop", "hybrid_transparency"},
             count<&O::nodes>(

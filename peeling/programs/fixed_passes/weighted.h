@@ -1,7 +1,8 @@
 // peeling/programs/fixed_passes/weighted.h - the fragment weights of McGuire and Bavoil 2013, and the resolve of
 // weighted sums to a pixel's colour, for weighted_blended, tails and moments.
 //
-// Rule     Weights by equations 7 to 10, each operation rounded to binary32. Pixel = (sums / weights) (1 - t) +
+// Rule     Weights by equations 7 to 10 or by a formula, each operation rounded to binary32. Pixel = (sums / weights)
+// (1 - t) +
 //          background t, where t is the product of (1 - alpha) of all fragments; the background if the sum of weights
 //          is not above 0.
 // Source   peeling/reference/algorithms.md 18. The test of the sum of weights replaces the least divisor of the paper.
@@ -39,9 +40,20 @@ inline namespace strict {
     return std::abs(eye.a + eye.b * z) / std::abs(eye.c + eye.d * z);
 }
 
-// The weights of a batch's fragments, multiplied by alpha except for Weight::constant.
+// The weights of a batch's fragments by a formula, which says whether alpha is a factor.
+inline void weigh_by(const WeightFormula& formula, const EyeDistance& eye, const pipeline::Frame& frame,
+                     const pipeline::FragmentBatch& in, pipeline::Lanes<float>& weights) noexcept {
+    const bool reversed = is_reversed(frame);
+    for (std::size_t i = 0; i < lanes(in); ++i)
+        weights[i] = weight_by(formula, {.depth = depth_behind_near(reversed, in.shader_z[i]),
+                                         .distance = distance_at(eye, window_z(frame, in.shader_z[i])),
+                                         .alpha = in.color[3][i]});
+}
+
+// The weights of a batch's fragments, multiplied by alpha except for Weight::constant and a formula.
 inline void weigh(const ListingInputs& inputs, const pipeline::Frame& frame, const pipeline::FragmentBatch& in,
                   pipeline::Lanes<float>& weights) noexcept {
+    if (const auto& formula = inputs.options.weight_formula) return weigh_by(*formula, inputs.eye, frame, in, weights);
     const Weight weight = inputs.options.weight;
     const bool reversed = is_reversed(frame);
     for (std::size_t i = 0; i < lanes(in); ++i) {

@@ -62,12 +62,31 @@ struct BlendedPixel {
     int fragments = 0;
 };
 
-BlendedPixel blended_model(const GivenPixel& pixel, const Rgba& background, Weight weight) {
+// A weight that no equation has, and its steps, each of few roundings.
+strata::peeling::WeightFormula falling_formula() {
+    using enum strata::peeling::WeightTerm;
+    return {.text = "alpha*exp(-2*z)+distance/512",
+            .steps = {{alpha},
+                      {number, -2},
+                      {depth},
+                      {product},
+                      {exponential},
+                      {product},
+                      {distance},
+                      {number, 512},
+                      {quotient},
+                      {sum}}};
+}
+double falling_weight(double depth, double a) { return a * std::exp(-2 * depth) + std::abs(2 * depth - 1); }
+
+BlendedPixel blended_model(const GivenPixel& pixel, const Rgba& background,
+                           const strata::peeling::AlgorithmOptions& options) {
     std::array<double, 3> sum{};
     double weights = 0, through = 1;
     BlendedPixel real;
     for (const GivenFragment& f : visible(pixel)) {
-        const double a = f.color[3], w = weight_of(weight, f.depth, a);
+        const double a = f.color[3], w = options.weight_formula ? falling_weight(double{f.depth}, a)
+                                                                : weight_of(options.weight, f.depth, a);
         for (std::size_t c = 0; c < 3; ++c) sum[c] += f.color[static_cast<int>(c)] * a * w;
         weights += a * w;
         through *= 1 - a;
@@ -110,7 +129,7 @@ double stored_value(const Image& image, Format format, std::size_t pixel, std::s
 std::string off_the_model(const FragmentScene& scene, const RenderResult& result, const RenderOptions& options,
                           Format format) {
     for (std::size_t p = 0; p < scene.pixels.size(); ++p) {
-        const BlendedPixel real = blended_model(scene.pixels[p], options.background, options.algorithm.weight);
+        const BlendedPixel real = blended_model(scene.pixels[p], options.background, options.algorithm);
         // Halves round by 2^-11, binary32 by 2^-24; an 8-bit picture by half a code once more.
         const double limit = format == Format::rgba8 ? allowed_error(real.fragments, 0x1p-11) + 0.5 / 255 + 1e-9
                                                      : allowed_error(real.fragments, 0x1p-24);
@@ -135,18 +154,21 @@ RenderOptions options_over_blue(const FragmentScene& scene, Format format) {
 }  // namespace
 
 TEST_CASE(
-    "weighted_blended averages colours by each of its weights over the background in both forms and every "
+    "weighted_blended averages colours by each of its weights and by a formula over the background in both forms and "
+    "every "
     "execution") {
     const FragmentScene scene = weighted_pixels(1);
     for (const char* algorithm : {"weighted_blended", "weighted_blended_shared"})
-        for (const Weight weight : {Weight::eq7, Weight::eq8, Weight::eq9, Weight::eq10, Weight::constant})
+        for (const std::optional<Weight> weight : std::initializer_list<std::optional<Weight>>{
+                 Weight::eq7, Weight::eq8, Weight::eq9, Weight::eq10, Weight::constant, std::nullopt})
             for (const Format format : {Format::rgba32f, Format::rgba8}) {
                 const char* profile = format == Format::rgba8 ? "geforce8_dx101" : "ideal";
                 std::optional<Image> first;
                 for (const Running& running : all_ways_of_running) {
-                    INFO(algorithm << " on " << profile << ", weight " << static_cast<int>(weight));
+                    INFO(algorithm << " on " << profile << ", weight " << (weight ? static_cast<int>(*weight) : -1));
                     RenderOptions options = options_over_blue(scene, format);
-                    options.algorithm.weight = weight;
+                    if (weight) options.algorithm.weight = *weight;
+                    if (!weight) options.algorithm.weight_formula = falling_formula();
                     running.apply(options);
                     const RenderResult result = render(draw_list(scene), deep_view(), {profile, algorithm}, options);
                     REQUIRE_FALSE(result.refusal);

@@ -1,6 +1,6 @@
 // Tests the compositing of samples: every sample's channels are read by TargetStorage::code and the formats'
 // definitions, sorted by std::stable_sort, and composited by the rule in the header.
-#include "peeling/programs/sample_lists.h"
+#include "peeling/programs/fixed_passes/sample_lists.h"
 
 #include <bit>
 #include <catch2/catch.hpp>

@@ -50,7 +50,8 @@ bool adds_revealage(AlteredRun& e) {
 }
 
 bool weighs_without_alpha(AlteredRun& e) {
-    if (!is_run_by(e, {"weighted_blended"}) || e.options.algorithm.weight != peeling::Weight::eq10) return false;
+    const peeling::AlgorithmOptions& own = e.options.algorithm;
+    if (!is_run_by(e, {"weighted_blended"}) || own.weight != peeling::Weight::eq10 || own.weight_formula) return false;
     const bool is_reversed = e.options.raster.depth_order == rasterizer::DepthOrder::greater;
     return behind_pass_of(e, pipeline::PassKind::geometry, "sums", [is_reversed](const ProgramCall& call) {
         for (std::size_t i = 0; i < lanes_of_call(call); ++i) {

@@ -1,5 +1,5 @@
-// peeling/programs/sample_lists.h - sorts and composites the fragments that a pixel has in the samples of several
-// targets.
+// peeling/programs/fixed_passes/sample_lists.h - sorts and composites the fragments that a pixel has in the samples of
+// several targets.
 //
 // Rule     Samples with a given code are empty. The others are composited UNDER in binary32, nearest first, equal codes
 //          in the order of the samples, and the background is added with the remaining transmittance.
