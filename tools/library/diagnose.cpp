@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rasterizer/base/input_error.h"
+#include "tools/library/check_light.h"
 #include "tools/oracle/diagnosis/diagnosis_report.h"
 #include "tools/oracle/emulations/catalogue.h"
 #include "tools/oracle/judge/picture_diagnosis.h"
@@ -43,6 +44,7 @@ namespace {
 
 Judgement judged(const Scene& scene, const oracle::AskedPicture& asked, const DeviceProfile& profile,
                  RenderOptions options, oracle::Effort effort) {
+    check_light(scene, options);
     const oracle::TargetImage& size = asked.candidate.targets[0];
     options.width = size.width;
     options.height = size.height;

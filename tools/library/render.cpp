@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rasterizer/base/input_error.h"
+#include "tools/library/check_light.h"
 
 namespace strata {
 inline namespace v0_1 {
@@ -12,6 +13,7 @@ namespace {
 
 // The renderer refers to the draw list of the scene, which must outlive it.
 peeling::Renderer renderer_of(const Scene& scene, const DeviceProfile& profile, const RenderOptions& options) {
+    check_light(scene, options);
     return {scene.list(), scene.view(options.width, options.height, options.raster), profile, options};
 }
 
@@ -26,7 +28,8 @@ void check_pixel(int x, int y, const RenderOptions& options) {
 
 peeling::FrameRequest input_of(const Scene& scene, const View& view, const DeviceProfile& profile,
                                const RenderOptions& options) {
-    return {scene.list(), view, profile, options};
+    check_light(scene, options);
+    return {scene.list(), view, profile, options, scene.space()};
 }
 
 }  // namespace
@@ -74,9 +77,7 @@ std::vector<Layer> layers(const Scene& scene, const Algorithm& algorithm, const 
 
 std::vector<CapturedFragment> fragments(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,
                                         const RenderOptions& options) {
-    return peeling::Renderer{scene.list(), scene.view(options.width, options.height, options.raster), profile, options}
-        .fragments(algorithm)
-        .all;
+    return renderer_of(scene, profile, options).fragments(algorithm).all;
 }
 
 std::vector<oracle::PassReport> passes(const Scene& scene, const Algorithm& algorithm, const DeviceProfile& profile,

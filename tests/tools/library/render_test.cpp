@@ -13,10 +13,10 @@ using Catch::Matchers::Contains;
 namespace {
 
 // Two triangles over the whole frame: a far white one and a near black one, both of alpha 0.5, over black.
-Scene far_white_near_black() {
+Scene far_white_near_black(pipeline::ColorSpace space = pipeline::ColorSpace::encoded) {
     const float far[] = {-1, -1, 0.5f, 3, -1, 0.5f, -1, 3, 0.5f};
     const float near[] = {-1, -1, -0.5f, 3, -1, -0.5f, -1, 3, -0.5f};
-    Scene scene;
+    Scene scene{space};
     scene.add({.name = "near", .positions = {near, 3}, .color = {0, 0, 0, 0.5f}});
     scene.add({.name = "far", .positions = {far, 3}, .color = {1, 1, 1, 0.5f}});
     return scene;
@@ -128,6 +128,27 @@ TEST_CASE("invalid options and pixels are rejected by name") {
     CHECK_THROWS_WITH(explain(scene, 0, -1, algorithm("dual"), profile("ideal"), small),
                       Contains("pixel: y: expected 0 to 4, found -1"));
     CHECK_THROWS_WITH(render(Scene{}.add({}), algorithm("dual"), profile("ideal"), small), Contains("positions.count"));
+}
+
+TEST_CASE("a target that encodes is drawn of a scene in linear light and refused by every function for another") {
+    RenderOptions encodes = small;
+    encodes.result_format = pipeline::Format::srgb8_alpha8;
+    const Algorithm& peel = algorithm("front_to_back");
+    const DeviceProfile& device = profile("ideal");
+    const Scene linear = far_white_near_black(pipeline::ColorSpace::linear), encoded = far_white_near_black();
+    // 0.25 in linear light is the sRGB value 0.5371.
+    const auto drawn = render(linear, peel, device, encodes);
+    CHECK(drawn.color().codes[0] == 137);
+    const Picture picture = drawn.picture();
+    const auto said = Contains("scene: color_space: expected linear with a target of srgb8_alpha8");
+    CHECK_THROWS_WITH(render(encoded, peel, device, encodes), said);
+    CHECK_THROWS_WITH(layers(encoded, peel, device, encodes), said);
+    CHECK_THROWS_WITH(fragments(encoded, peel, device, encodes), said);
+    CHECK_THROWS_WITH(passes(encoded, peel, device, encodes), said);
+    CHECK_THROWS_WITH(explain(encoded, 0, 0, peel, device, encodes), said);
+    CHECK_THROWS_WITH(explain_samples(encoded, 0, 0, peel, device, encodes), said);
+    CHECK_THROWS_WITH(judge(encoded, picture, device, encodes, &peel), said);
+    CHECK_THROWS_WITH(diagnose(encoded, picture, peel, device, encodes, {}), said);
 }
 
 TEST_CASE("a scene without triangles is drawn as its background") {

@@ -129,3 +129,14 @@ def test_two_vertices_are_a_line_and_one_a_point():
     assert covered("points") == 2 and covered("points", point_size=3) == 18
     with pytest.raises(strata.InputError, match="primitive: expected triangles, lines or points, found 'line'"):
         strata.Scene().add(CORNERS, primitive="line")
+
+
+def test_a_target_that_encodes_needs_a_scene_in_linear_light():
+    whole_frame = [[-1, -1, 0], [3, -1, 0], [-1, 3, 0]]
+    options = {"size": (2, 2), "color_format": "rgba32f", "result_format": "srgb8_alpha8"}
+    linear = strata.Scene(color_space="linear").add(whole_frame, color=(1, 1, 1, 0.25))
+    assert strata.render(linear, "front_to_back", **options).color[0, 0, 0] == 137  # 0.25 in linear light
+    with pytest.raises(strata.InputError, match="expected linear with a target of srgb8_alpha8"):
+        strata.render(strata.Scene().add(whole_frame), **options)
+    with pytest.raises(strata.InputError, match="expected encoded or linear, found 'log'"):
+        strata.Scene("teapot", color_space="log")

@@ -5,13 +5,16 @@
 //          side, and NAME.candidate.npy with the codes of the candidate's first target. The folder is the environment
 //          variable STRATA_PICTURES, or by default strata-pictures in the current folder. Nothing is written for equal
 //          pictures.
-// Tests    tests/tools/library/matchers_test.cpp
+//          `compare_folders` compares two folders of pictures, and writes nothing.
+// Tests    tests/tools/library/matchers_test.cpp, folders_test.cpp
 #pragma once
 #include <string>
+#include <vector>
 
 #include "strata/picture.h"
 #include "tools/oracle/compare/compare.h"
 #include "tools/oracle/compare/report.h"
+#include "tools/oracle/folders/compare_folders.h"
 
 namespace strata {
 inline namespace v0_1 {
@@ -50,6 +53,26 @@ struct Checked {
 
 // Does not throw for pictures that cannot be compared: these are a failure with a message.
 [[nodiscard]] Checked check(const Picture& candidate, const Reference& reference, const Tolerances& tolerances = {});
+
+// The pictures of two folders, by name, as `strata compare FOLDER FOLDER` compares them.
+struct ComparedFolders {
+    oracle::FolderSummary summary{};
+    std::vector<oracle::FolderCase> cases{};  // in the order of names
+    [[nodiscard]] bool is_accepted() const noexcept { return summary.failed() == 0; }
+};
+
+// Which files are pictures: patterns with commas between, as the options --names and --baselines have them.
+struct FolderNames {
+    std::string names{}, baselines{};
+};
+
+// Throws InputError for a folder that cannot be read, for two without a picture, and for a text without {name}.
+[[nodiscard]] ComparedFolders compare_folders(const std::string& reference, const std::string& candidate,
+                                              const Tolerances& tolerances = {}, const FolderNames& names = {});
+// What the command prints, with --json, and writes by --junit.
+[[nodiscard]] std::string to_text(const ComparedFolders& compared);
+[[nodiscard]] std::string to_json(const ComparedFolders& compared);
+[[nodiscard]] std::string to_junit(const ComparedFolders& compared);
 
 }  // namespace v0_1
 }  // namespace strata

@@ -54,6 +54,8 @@ struct Triangles {
 class Scene {
   public:
     Scene() = default;
+    // Without triangles yet; their colours and the frame's will be of that space.
+    explicit Scene(pipeline::ColorSpace space) : space_{space} {}
     // The same names as for the command: a .gltf, .glb, .obj, .ply, .stl or .off file, or a built-in scene such as
     // "teapot". Throws InputError.
     explicit Scene(const std::string& spec, const SceneOptions& options = {});

@@ -43,6 +43,19 @@ std::optional<NamePattern> name_pattern(std::string_view text) {
     return NamePattern{std::string(text.substr(0, at)), std::string(after)};
 }
 
+std::optional<std::vector<NamePattern>> name_patterns(std::string_view text) {
+    std::vector<NamePattern> patterns;
+    for (bool is_last = false; !is_last;) {
+        const std::size_t comma = text.find(',');
+        const auto pattern = name_pattern(text.substr(0, comma));
+        if (!pattern) return std::nullopt;
+        patterns.push_back(*pattern);
+        is_last = comma == std::string_view::npos;
+        text.remove_prefix(is_last ? text.size() : comma + 1);
+    }
+    return patterns;
+}
+
 std::optional<std::string> name_in(std::string_view path, const NamePattern& pattern) {
     if (path.size() <= pattern.before.size() && !has_star(pattern.before)) return std::nullopt;
     // Without a star a part of the pattern has only one place.

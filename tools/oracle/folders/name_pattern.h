@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace strata::oracle {
 
@@ -16,6 +17,8 @@ struct NamePattern {
 
 // "{name}-actual.png". Empty for a text that contains {name} never or twice.
 [[nodiscard]] std::optional<NamePattern> name_pattern(std::string_view text);
+// Patterns with commas between: "{name}-expected.png,{name}-actual.png". Empty unless each of them is one.
+[[nodiscard]] std::optional<std::vector<NamePattern>> name_patterns(std::string_view text);
 // The name in a path: "menu" of "menu-actual.png". Empty if the pattern does not fit.
 [[nodiscard]] std::optional<std::string> name_in(std::string_view path, const NamePattern& pattern);
 

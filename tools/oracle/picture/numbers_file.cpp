@@ -1,6 +1,7 @@
 // tools/oracle/picture/numbers_file.cpp - images in .npy files.
 //
-// Rule     In a .npy file a single channel of f4 or u4 is a depth, one of u1 or u2 another target.
+// Rule     In a .npy file a single channel of f4 or u4 is a depth, one of u1 or u2 another target. Four channels of u2
+//          are codes of rgb10_a2 if no colour is above 1023 and every alpha is 341 times 0 to 3, not all of them 0.
 #include "tools/oracle/picture/numbers_file.h"
 
 #include <fmt/format.h>
@@ -21,6 +22,22 @@ Code code_of(scenes::Element element, const std::string& file) {
     }
     throw InputError(file, "descr", "elements |u1, <u2, <u4, <f2 or <f4", "<i4");
 }
+
+namespace {
+
+// A picture of 16 bits has no such alphas: the greatest would be 1.6 %.
+[[nodiscard]] bool holds_ten_bits(const TargetImage& target) {
+    if (target.code != Code::unorm16 || target.channels != 4) return false;
+    bool has_alpha = false;
+    for (std::size_t i = 0; i < target.codes.size(); ++i) {
+        const std::uint32_t code = target.codes[i];
+        if (code > 1023 || (i % 4 == 3 && code % 341 != 0)) return false;
+        has_alpha = has_alpha || (i % 4 == 3 && code != 0);
+    }
+    return has_alpha;
+}
+
+}  // namespace
 
 TargetImage read_npy(const std::string& path) {
     const scenes::NumberArray array = scenes::read_npy(path);
@@ -45,6 +62,7 @@ TargetImage read_npy(const std::string& path) {
                            .code = target.code,
                            .meaning = target.meaning};
     target.codes = raw_target(array.bytes, path, layout).codes;
+    if (holds_ten_bits(target)) target.code = Code::unorm10;
     return target;
 }
 

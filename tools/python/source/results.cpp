@@ -161,6 +161,28 @@ void bind_history(py::module_& module) {
     });
 }
 
+void bind_folders(py::module_& module) {
+    py::class_<ComparedFolders>(module, "ComparedFolders", "Which pictures of two folders differ, by name.")
+        .def_property_readonly("accepted", &ComparedFolders::is_accepted)
+        .def_property_readonly("failed", [](const ComparedFolders& c) { return c.summary.failed(); })
+        .def_property_readonly("states",
+                               [](const ComparedFolders& c) {
+                                   py::dict all;
+                                   for (const oracle::FolderCase& one : c.cases)
+                                       all[py::str(one.name)] = std::string{oracle::name(one.state)};
+                                   return all;
+                               })
+        .def_property_readonly("text", [](const ComparedFolders& c) { return to_text(c); })
+        .def_property_readonly("json_text", [](const ComparedFolders& c) { return to_json(c); })
+        .def_property_readonly("junit", [](const ComparedFolders& c) { return to_junit(c); });
+    module.def("_compare_folders",
+               [](const std::string& reference, const std::string& candidate, const Tolerances& tolerances,
+                  const std::string& names, const std::string& baselines) {
+                   py::gil_scoped_release without_lock;
+                   return compare_folders(reference, candidate, tolerances, {names, baselines});
+               });
+}
+
 void bind_compare(py::module_& module) {
     py::class_<Picture>(module, "Picture", "Targets with their codes, to be compared.")
         .def_property_readonly("arrays",
@@ -203,6 +225,7 @@ void bind_compare(py::module_& module) {
         const Checked checked = check(candidate, Reference{reference, name}, tolerances);
         return std::make_pair(checked.is_accepted, checked.message);
     });
+    bind_folders(module);
     py::class_<Tolerances>(module, "Tolerances", "What may be forgiven; nothing unless it is said.")
         .def(py::init([](std::uint32_t color, std::uint32_t depth, std::uint64_t coverage, std::uint64_t pixels) {
                  return Tolerances{.color_codes = color,

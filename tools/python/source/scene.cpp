@@ -28,6 +28,12 @@ Primitive primitive_of(const std::string& name) {
     throw InputError("triangles", "primitive", "triangles, lines or points", "'" + name + "'");
 }
 
+pipeline::ColorSpace space_of(const std::string& name) {
+    if (name == "encoded") return pipeline::ColorSpace::encoded;
+    if (name == "linear") return pipeline::ColorSpace::linear;
+    throw InputError("scene", "color_space", "encoded or linear", "'" + name + "'");
+}
+
 void add(Scene& scene, const Floats& positions, const std::optional<Floats>& colors,
          const std::optional<py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>>& indices,
          const std::array<float, 4>& color, bool transparent, bool double_sided,
@@ -45,14 +51,16 @@ void add(Scene& scene, const Floats& positions, const std::optional<Floats>& col
 
 void bind_scene(py::module_& module) {
     py::class_<Scene>(module, "Scene", "What is drawn, and the camera.")
-        .def(py::init<>())
-        .def(py::init([](const std::string& spec, bool light) {
+        .def(py::init([](const std::string& color_space) { return std::make_unique<Scene>(space_of(color_space)); }),
+             py::kw_only(), py::arg("color_space") = "encoded")
+        .def(py::init([](const std::string& spec, bool light, const std::string& color_space) {
                  SceneOptions options;
                  options.light = light;
+                 options.color_space = space_of(color_space);
                  py::gil_scoped_release unlocked;
                  return std::make_unique<Scene>(spec, options);
              }),
-             py::arg("spec"), py::kw_only(), py::arg("light") = true)
+             py::arg("spec"), py::kw_only(), py::arg("light") = true, py::arg("color_space") = "encoded")
         .def("_add", &add)
         .def(
             "look",

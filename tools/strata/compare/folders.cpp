@@ -22,16 +22,6 @@ namespace {
 
 using oracle::FolderCase;
 
-std::optional<std::vector<oracle::NamePattern>> to_patterns(std::string_view text) {
-    std::vector<oracle::NamePattern> patterns;
-    for (const std::string& word : split(text, ',')) {
-        const auto pattern = oracle::name_pattern(word);
-        if (!pattern) return std::nullopt;
-        patterns.push_back(*pattern);
-    }
-    return patterns;
-}
-
 // Collects the page while cases arrive: what failed with pictures, then a table of all.
 class FolderPage {
   public:
@@ -108,7 +98,7 @@ void add_folder_options(CLI::App& app, oracle::PictureNames& names) {
                 "the candidate's, as '{name}-expected.png,{name}-actual.png' (default: the path with its ending)",
                 "one or two patterns with {name} such as '{name}-expected.png,{name}-actual.png'"},
                [baselines = &names.baselines](std::string_view text) -> std::optional<oracle::PictureNames> {
-                   const auto found = to_patterns(text);
+                   const auto found = oracle::name_patterns(text);
                    if (!found || found->size() > 2) return std::nullopt;
                    return oracle::PictureNames{found->front(), found->back(), *baselines};
                });
@@ -117,7 +107,7 @@ void add_folder_options(CLI::App& app, oracle::PictureNames& names) {
                 "of two folders: further references of a name, of which the candidate has to fit one, as "
                 "'{name}@*.png' for menu@mac.png",
                 "patterns with {name} such as '{name}@*.png'"},
-               to_patterns);
+               oracle::name_patterns);
 }
 
 bool is_folder(const std::string& path) {

@@ -89,6 +89,21 @@ TEST_CASE("a NumPy array is read in its own type and shape") {
     CHECK(color.codes == std::vector<std::uint32_t>{0x3c00, 0x3800, 0x0000, 0x8000});
 }
 
+TEST_CASE("an array of 16-bit words holds rgb10_a2 only if its colours and alphas are codes of that format") {
+    const auto code_of_two_pixels = [](const std::array<std::uint16_t, 8>& words) {
+        std::string data;
+        for (const unsigned word : words) data += {static_cast<char>(word & 0xffu), static_cast<char>(word >> 8)};
+        const OwnFile file{".npy", npy("{'descr': '<u2', 'fortran_order': False, 'shape': (1, 2, 4), }\n", data)};
+        return read_picture(file.path()).targets.at(0).code;
+    };
+    CHECK(code_of_two_pixels({0, 1023, 7, 1023, 5, 6, 7, 0}) == Code::unorm10);
+    CHECK(code_of_two_pixels({0, 1023, 7, 341, 5, 6, 7, 682}) == Code::unorm10);
+    CHECK(code_of_two_pixels({0, 1024, 7, 1023, 5, 6, 7, 0}) == Code::unorm16);  // a colour above 1023
+    CHECK(code_of_two_pixels({0, 1023, 7, 1022, 5, 6, 7, 0}) == Code::unorm16);  // no such alpha
+    CHECK(code_of_two_pixels({0, 1023, 7, 1364, 5, 6, 7, 0}) == Code::unorm16);  // 4 times 341
+    CHECK(code_of_two_pixels({0, 1023, 7, 0, 5, 6, 7, 0}) == Code::unorm16);     // both invisible
+}
+
 TEST_CASE("an array of another type or order or size is rejected with a message that names the fault") {
     const auto says = [](const std::string& header, const std::string& data, const std::string& words) {
         const OwnFile file{".npy", npy(header, data)};

@@ -19,11 +19,11 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _strata
-from ._strata import (Comparison, Diagnosis, FileError, History, InputError, Judgement, Picture, Refused, Rendering, Tolerances, __version__, algorithms,
+from ._strata import (ComparedFolders, Comparison, Diagnosis, FileError, History, InputError, Judgement, Picture, Refused, Rendering, Tolerances, __version__, algorithms,
                       profiles, read)
 
-__all__ = ["Comparison", "Diagnosis", "FileError", "History", "InputError", "Judgement", "Layer", "Picture", "Refused", "Region", "Rendering", "Scene", "Tolerances",
-           "__version__", "algorithms", "assert_matches", "compare", "diagnose", "explain", "fragments", "history_json", "judge", "layers", "passes", "picture",
+__all__ = ["ComparedFolders", "Comparison", "Diagnosis", "FileError", "History", "InputError", "Judgement", "Layer", "Picture", "Refused", "Region", "Rendering", "Scene", "Tolerances",
+           "__version__", "algorithms", "assert_matches", "compare", "compare_folders", "diagnose", "explain", "fragments", "history_json", "judge", "layers", "passes", "picture",
            "profiles", "read", "render"]
 
 Array = npt.NDArray[Any]
@@ -32,7 +32,7 @@ Comparable = Union[Rendering, Picture, Array, str, "os.PathLike[str]"]
 
 class Scene(_strata.Scene):
     """A model's file (.gltf, .glb, .obj, .ply, .stl, .off), a built-in scene, or added triangles; without a camera their positions are in clip
-    space."""
+    space. `color_space` is that of the colours and of blending: "encoded", or "linear", which a target of srgb8_alpha8 needs."""
 
     def add(self, positions: npt.ArrayLike, *, colors: Optional[npt.ArrayLike] = None, indices: Optional[npt.ArrayLike] = None,
             color: Sequence[float] = (1, 1, 1, 1), transparent: bool = True, double_sided: bool = True,
@@ -137,6 +137,14 @@ def compare(reference: Comparable, candidate: Comparable, *, color: int = 0, dep
     """Compares exactly, unless codes or pixels are tolerated: text, json_text, heat and distance describe the difference."""
     tolerances = Tolerances(color=color, depth=depth, coverage=coverage)
     return _strata._compare(_picture_of(reference), _picture_of(candidate), tolerances)
+
+
+def compare_folders(reference: Union[str, "os.PathLike[str]"], candidate: Union[str, "os.PathLike[str]"], *, names: str = "", baselines: str = "",
+                    color: int = 0, depth: int = 0, coverage: int = 0, pixels: int = 0) -> ComparedFolders:
+    """Compares the pictures of two folders by name, as `strata compare FOLDER FOLDER` does: accepted, failed, states, text, json_text, junit. `names`
+    and `baselines` are the patterns of its options, such as "{name}-expected.png,{name}-actual.png"; the tolerances are of each picture."""
+    tolerances = Tolerances(color=color, depth=depth, coverage=coverage, pixels=pixels)
+    return _strata._compare_folders(os.fspath(reference), os.fspath(candidate), tolerances, names, baselines)
 
 
 def judge(scene: _strata.Scene, candidate: Comparable, algorithm: str = "", *, profile: str = "geforce8", **options: Any) -> Judgement:
