@@ -61,6 +61,17 @@ std::vector<std::string> materials_of(const pipeline::DrawList& list, pipeline::
     return names;
 }
 
+// The names, of masks with the alpha from which they are drawn.
+std::vector<std::string> materials_with_cutoffs(const pipeline::DrawList& list, pipeline::AlphaMode mode) {
+    if (mode != pipeline::AlphaMode::mask) return materials_of(list, mode);
+    std::vector<std::string> texts;
+    for (const auto& m : list.materials)
+        if (m.alpha_mode == mode)
+            texts.push_back(m.front[3] < m.alpha_cutoff ? m.name + ": never drawn"
+                                                        : fmt::format("{} from alpha {}", m.name, m.alpha_cutoff));
+    return texts;
+}
+
 // In the order of the enum.
 constexpr std::array alpha_modes{pipeline::AlphaMode::opaque, pipeline::AlphaMode::mask, pipeline::AlphaMode::blend};
 
@@ -152,7 +163,8 @@ std::string ignored_alpha_text(const scenes::Scene& scene) {
         else
             parts.push_back(fmt::format("{} ({})", one.material, one.of));
     }
-    return fmt::format("{}: OPAQUE, so that it is not drawn (MASK or BLEND in the file draws it)", with_commas(parts));
+    return fmt::format("{}: drawn with alpha 1, because the mode is OPAQUE; MASK or BLEND in the file keeps the alpha",
+                       with_commas(parts));
 }
 
 // "1728", "8000 lines", "12 and 3 points".
@@ -178,8 +190,9 @@ std::string describe(const scenes::Scene& scene) {
     if (all.points > 0) table.rows.push_back({"points", std::to_string(all.points)});
     for (const auto mode : alpha_modes) {
         const Drawn part = drawn(scene.list, mode);
-        table.rows.push_back({fmt::format("  {}", alpha_mode_name(mode)),
-                              fmt::format("{}{}", counts_text(part), in_brackets(materials_of(scene.list, mode)))});
+        table.rows.push_back(
+            {fmt::format("  {}", alpha_mode_name(mode)),
+             fmt::format("{}{}", counts_text(part), in_brackets(materials_with_cutoffs(scene.list, mode)))});
     }
     table.rows.push_back({"materials", fmt::format("{}", scene.list.materials.size())});
     if (!scene.opaque_with_alpha.empty()) table.rows.push_back({"alpha lost", ignored_alpha_text(scene)});

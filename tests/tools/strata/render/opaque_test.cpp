@@ -45,14 +45,19 @@ TEST_CASE("scene lists the materials of each alpha mode and the alpha that OPAQU
     const Folder folder;
     std::ofstream(folder / "a.gltf") << R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[
 {"attributes":{"POSITION":0,"COLOR_0":1},"material":0},{"attributes":{"POSITION":0},"material":1},
-{"attributes":{"POSITION":0},"material":2}]}],"materials":[
-{"name":"pane","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]}},{"name":"glass","alphaMode":"BLEND"},{"name":"wall"}],
+{"attributes":{"POSITION":0},"material":2},{"attributes":{"POSITION":0},"material":3},
+{"attributes":{"POSITION":0},"material":4},{"attributes":{"POSITION":0},"material":5}]}],"materials":[
+{"name":"pane","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]}},{"name":"glass","alphaMode":"BLEND"},{"name":"wall"},
+{"name":"leaf","alphaMode":"MASK","alphaCutoff":0.25},{"name":"chain","alphaMode":"MASK"},
+{"name":"plant","alphaMode":"MASK","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0]}}],
 "accessors":[{"componentType":5126,"count":3,"type":"VEC3"},{"componentType":5126,"count":3,"type":"VEC4"}]})";
     const CommandResult found = run_strata(folder, {"scene", "a.gltf"});
     CHECK(found.status == 0);
-    for (const std::string line : {"  OPAQUE    2 (pane, wall)\n", "  BLEND     1 (glass)\n",
-                                   "alpha lost  pane (factor, vertex colours): OPAQUE, so that it is not drawn (MASK "
-                                   "or BLEND in the file draws it)\n"}) {
+    for (const std::string line :
+         {"  OPAQUE    2 (pane, wall)\n", "  BLEND     1 (glass)\n",
+          "alpha lost  pane (factor, vertex colours): drawn with alpha 1, because the mode is "
+          "OPAQUE; MASK or BLEND in the file keeps the alpha\n",
+          "  MASK      3 (leaf from alpha 0.25, chain from alpha 0.5, plant: never drawn)\n"}) {
         INFO(found.out);
         CHECK(found.out.find(line) != std::string::npos);
     }
