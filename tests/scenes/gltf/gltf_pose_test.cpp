@@ -1,5 +1,5 @@
-// Tests poses (morph targets, skins, hidden nodes) on 48 generated files: every corner of every triangle is compared
-// with its place as computed here from the description, point by point and without matrices.
+// Tests poses (morph targets, skins, hidden nodes) on 240 generated files: every corner of every triangle, point and
+// line is compared with its place as computed here from the description, point by point and without matrices.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -179,9 +179,9 @@ void add_joints(GltfFile& file, const Described& d, Json& attributes) {
     }
 }
 
-GltfFile written(const Described& d, bool has_targets, bool is_sparse) {
+GltfFile written(const Described& d, bool has_targets, bool is_sparse, int mode = 4) {
     GltfFile file;
-    Json primitive{{"attributes", {{"POSITION", file.positions(flattened(d.positions))}}}};
+    Json primitive{{"attributes", {{"POSITION", file.positions(flattened(d.positions))}}}, {"mode", mode}};
     if (d.joint_count > 0) add_joints(file, d, primitive["attributes"]);
     for (std::size_t t = 0; has_targets && t < d.targets.size(); ++t)
         primitive["targets"].push_back({{"POSITION", add_targets_of(file, d.targets[t], is_sparse)}});
@@ -215,7 +215,19 @@ GltfFile written(const Described& d, bool has_targets, bool is_sparse) {
     return file;
 }
 
-// The corners of all triangles in world space.
+// The corners of triangles (mode 4) in the order of the list, or of points, lines, a loop or a strip (0 to 3): a point
+// three times, the first end of a line twice. Exchanged are 1 and 2 of every triangle.
+std::vector<std::size_t> corners_of_mode(int mode, bool is_exchanged) {
+    std::vector<std::size_t> all;
+    const std::size_t step = mode == 1 ? 2 : 1, end = mode == 0 || mode == 2 ? corners : corners - 1;
+    for (std::size_t i = 0; mode < 4 && i < end; i += step)
+        all.insert(all.end(), {i, i, mode == 0 ? i : (i + 1) % corners});
+    for (std::size_t i = 0; mode == 4 && i < corners; ++i)
+        all.push_back(is_exchanged && i % 3 != 0 ? i / 3 * 3 + 3 - i % 3 : i);
+    return all;
+}
+
+// The corners of all primitives in world space.
 std::vector<Point> places_of(const Scene& scene) {
     std::vector<Point> places;
     for (const auto& instance : scene.list.instances) {
@@ -256,28 +268,29 @@ GltfFile one_joint(const Json& node, Json primitive_more = Json::object()) {
 
 }  // namespace
 
-TEST_CASE("48 files with morph targets and skins and hidden nodes have every corner where it was computed") {
+TEST_CASE("240 files of five modes with morph targets and skins and hidden nodes have every corner where computed") {
     std::uint32_t seed = 0;
-    for (const Morph morph : {Morph::none, Morph::of_mesh, Morph::of_node, Morph::of_both})
-        for (const SkinKind skin : {SkinKind::none, SkinKind::one_joint, SkinKind::two_joints, SkinKind::two_sets})
-            for (const Hidden hidden : {Hidden::nothing, Hidden::node, Hidden::parent}) {
-                const Described d = described(morph, skin, hidden, ++seed);
-                const Scene scene = written(d, morph != Morph::none || seed % 2 == 0, seed % 3 == 0).load();
-                INFO("file " << seed);
-                const std::vector<Point> places = places_of(scene);
-                if (hidden != Hidden::nothing) {
-                    CHECK(places.empty());
-                    CHECK(scene.warnings.size() == 1);
-                    continue;
+    for (const int mode : {4, 0, 1, 2, 3})
+        for (const Morph morph : {Morph::none, Morph::of_mesh, Morph::of_node, Morph::of_both})
+            for (const SkinKind skin : {SkinKind::none, SkinKind::one_joint, SkinKind::two_joints, SkinKind::two_sets})
+                for (const Hidden hidden : {Hidden::nothing, Hidden::node, Hidden::parent}) {
+                    const Described d = described(morph, skin, hidden, ++seed);
+                    const Scene scene = written(d, morph != Morph::none || seed % 2 == 0, seed % 3 == 0, mode).load();
+                    INFO("file " << seed);
+                    const std::vector<Point> places = places_of(scene);
+                    if (hidden != Hidden::nothing) {
+                        CHECK(places.empty());
+                        CHECK(scene.warnings.size() == 1);
+                        continue;
+                    }
+                    CHECK(scene.warnings.empty());
+                    // A skin below a mirroring node.
+                    const bool is_exchanged = skin != SkinKind::none && d.nodes[0].scale[2] * d.nodes[1].scale[2] < 0;
+                    const auto expected = corners_of_mode(mode, is_exchanged);
+                    REQUIRE(places.size() == expected.size());
+                    for (std::size_t i = 0; i < expected.size(); ++i) check_place(places[i], d.place(expected[i]));
                 }
-                CHECK(scene.warnings.empty());
-                REQUIRE(places.size() == corners);
-                // A skin below a mirroring node: corners 1 and 2 of every triangle are exchanged.
-                const bool is_exchanged = skin != SkinKind::none && d.nodes[0].scale[2] * d.nodes[1].scale[2] < 0;
-                for (std::size_t i = 0; i < corners; ++i)
-                    check_place(places[i], d.place(is_exchanged && i % 3 != 0 ? i / 3 * 3 + 3 - i % 3 : i));
-            }
-    CHECK(seed == 48);
+    CHECK(seed == 240);
 }
 
 TEST_CASE("a mesh is stored once for each pose and a node without weights shows the mesh's") {
