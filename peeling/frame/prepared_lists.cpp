@@ -9,6 +9,7 @@
 #include "pipeline/vertices/check_list.h"
 #include "pipeline/vertices/other_splits.h"
 #include "rasterizer/base/input_error.h"
+#include "rasterizer/coverage/sample_rectangle.h"
 #include "rasterizer/set_up/check_input.h"
 
 namespace strata::peeling {
@@ -65,8 +66,15 @@ std::optional<Refusal> PreparedLists::undrawable() const {
             return Refusal{
                 "known rule for stippled lines" + std::string{is_of_polygon(primitive) ? " of polygons" : ""}, "",
                 is_of_polygon(primitive) ? "" : "use geforce8 or ideal"};
-        if (s_.options.sampling.samples > 1 || s_.raster.sample)
-            return Refusal{"multisampling of lines and points", "", "use --samples 1"};
+        if (s_.options.sampling.samples == 1 && !s_.raster.sample) continue;
+        if (!covers_samples(s_.profile.raster, primitive))
+            return Refusal{"multisampling of lines and points", "",
+                           "use geforce8, ideal or direct3d11, or --samples 1"};
+        if (s_.raster.line_stipple && shape_of(primitive) == rasterizer::Shape::line)
+            return Refusal{"known rule for stippled lines of several samples", "", "use --samples 1"};
+        if (s_.raster.interpolation != rasterizer::Interpolation::sample)
+            return Refusal{"lines and points whose values are those of a pixel of several samples", "",
+                           "use --shading sample"};
     }
     return std::nullopt;
 }

@@ -146,7 +146,7 @@ TEST_CASE("lines and points have the same bits in every execution, with tiles of
     }
 }
 
-TEST_CASE("lines and points are refused by devices without a rule for them and with several samples") {
+TEST_CASE("lines and points are refused by devices without a rule for them or for their samples") {
     const auto refused = [](const char* profile, int samples) {
         RenderOptions options = mixed_options();
         options.color_format.reset();
@@ -157,7 +157,9 @@ TEST_CASE("lines and points are refused by devices without a rule for them and w
     CHECK(refused("llvmpipe", 1) == "");
     CHECK(refused("softpipe", 1) == "known rule for lines");
     CHECK(refused("swiftshader", 1) == "known rule for lines");
-    CHECK(refused("geforce8", 4) == "multisampling of lines and points");
+    CHECK(refused("geforce8", 4) == "");
+    CHECK(refused("llvmpipe", 4) == "multisampling of lines and points");
+    CHECK(refused("geforce3", 2) == "multisampling of lines and points");
     CHECK(refused("geforce8", 1) == "");
     RenderOptions by_plane = mixed_options();
     by_plane.color_format.reset();
@@ -167,4 +169,28 @@ TEST_CASE("lines and points are refused by devices without a rule for them and w
         REQUIRE(result.refusal);
         CHECK(result.refusal->feature == "float32_plane for lines and points, which have no area");
     }
+}
+
+TEST_CASE("lines and points of several samples are sorted at each sample and every algorithm that is exact agrees") {
+    const DrawList list = mixed_list();
+    for (const char* profile : {"geforce8", "ideal", "direct3d11"}) {
+        std::optional<Image> first;
+        for (const char* algorithm : {"a_buffer", "front_to_back", "dual"}) {
+            RenderOptions options = mixed_options();
+            options.sampling.samples = 4;
+            const RenderResult result = render(list, {}, {profile, algorithm}, options);
+            INFO(profile << ", " << algorithm);
+            REQUIRE(result.outcome == Outcome::done);
+            CHECK(result.audit.order_errors == 0);
+            CHECK(result.audit.max_difference < 1e-3);
+            if (first) CHECK(result.frame.depth.codes == first->codes);
+            if (!first) first = result.frame.depth;
+        }
+    }
+    RenderOptions by_pixel = mixed_options();
+    by_pixel.sampling.samples = 4;
+    by_pixel.raster.interpolation = strata::rasterizer::Interpolation::centre;
+    const RenderResult refused = render(list, {}, {"geforce8", "dual"}, by_pixel);
+    REQUIRE(refused.refusal);
+    CHECK(refused.refusal->feature == "lines and points whose values are those of a pixel of several samples");
 }

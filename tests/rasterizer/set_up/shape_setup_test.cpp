@@ -255,6 +255,20 @@ TEST_CASE("lines and points are refused where no rule says what they cover") {
           "raster state: line_width_px: expected 1 with line_style thin, found 2.000000");
     state.line_style = LineStyle::band;
     state.sample.emplace();
+    const std::string no_samples =
+        "triangle soup: runs[0].primitive: expected triangles, because the frame has sample positions, found ";
+    CHECK(shape_refusal(Primitive::points, state, chip_shapes) == no_samples + "points");
+    CHECK(shape_refusal(Primitive::lines, state, chip_shapes) == no_samples + "lines");
+    CHECK(shape_refusal(Primitive::points, state, ideal_shapes) == "");
+    CHECK(shape_refusal(Primitive::lines, state, ideal_shapes) == "");
+    state.line_stipple.emplace();
+    CHECK(shape_refusal(Primitive::points, state, ideal_shapes) == "");
+    CHECK(shape_refusal(Primitive::lines, state, ideal_shapes) ==
+          "triangle soup: runs[0].primitive: expected no line_stipple, because the frame has sample positions, found "
+          "lines");
+    state.line_stipple.reset();
+    state.interpolation = Interpolation::centre;
     CHECK(shape_refusal(Primitive::points, state, ideal_shapes) ==
-          "triangle soup: runs[0].primitive: expected triangles, because the frame has sample positions, found points");
+          "triangle soup: runs[0].primitive: expected triangles, because values are not those of the samples, found "
+          "points");
 }
