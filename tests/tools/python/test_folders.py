@@ -13,7 +13,7 @@ def folders(tmp_path):
     """Three pictures: equal, one code off at one pixel, and missing."""
     for folder in ("wanted", "made"):
         (tmp_path / folder).mkdir()
-    codes = np.full((2, 3, 4), 200, np.uint8)
+    codes = np.arange(5, 245, 10, dtype=np.uint8).reshape(2, 3, 4)
     off = codes.copy()
     off[1, 2, 0] += 1
     for name, wanted, made in (("a", codes, codes), ("b", codes, off), ("c", codes, None)):
