@@ -20,7 +20,7 @@ def test_a_right_picture_is_right_and_a_mistake_is_named(scene):
     assert fine.is_right and fine.verdict == "right" and fine.mistakes == [] and fine.differing == 0
     exchanged = strata.diagnose(scene, np.ascontiguousarray(picture.color[..., [2, 1, 0, 3]]), "dual", profile="geforce8")
     assert exchanged.mistakes == ["red_for_blue"] and not exchanged.is_right
-    assert exchanged.text.startswith("wrong: every pixel is that of: red and blue exchanged (red_for_blue)")
+    assert exchanged.text.startswith("wrong: red and blue are exchanged in the layers\n")
     assert json.loads(exchanged.json_text)["verdict"] == exchanged.verdict == "one_mistake"
 
 
