@@ -1,6 +1,5 @@
 // Tests moments: its logarithm and exponential against Boost.Multiprecision, its bounds against distributions of
 // points, and pictures against the exact A-buffer. peeling/reference/algorithms.md 22.
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -8,6 +7,7 @@
 #include "peeling/programs/fixed_passes/moment_bound.h"
 #include "tests/peeling/eighths.h"
 #include "tests/peeling/expectations.h"
+#include "tests/peeling/units_off.h"
 
 namespace {
 
@@ -18,20 +18,12 @@ using strata::peeling::Moments;
 using strata::peeling::RenderOptions;
 using strata::peeling::RenderResult;
 using strata::peeling::share_before;
-using Wide = boost::multiprecision::cpp_bin_float_50;
 
 const ExpectedRow expected_moments{{.algorithm = "moments",
                                     .devices = Devices::programmable,
                                     .passes = [](int) { return 2; },
                                     .targets = {"total", "moments", "sums", "result"},
                                     .render_targets = 2}};
-
-// The error in units of the last place of the real value; below the normal range, of the least normal number.
-double off_by(float found, const Wide& real) {
-    const double value = static_cast<double>(real);
-    const double unit = std::ldexp(1.0, std::max(std::ilogb(value), -126) - 23);
-    return std::abs(static_cast<double>((Wide{found} - real) / unit));
-}
 
 struct Points {
     std::vector<double> depth, mass;
@@ -74,9 +66,9 @@ TEST_CASE("minus_log and exp_of_minus are within half a unit in the last place p
     for (int i = 0; i < 4000; ++i) {
         const float x =
             std::ldexp(0.5f + 0.5f * static_cast<float>(random() >> 8) * 0x1p-24f, -static_cast<int>(random() % 25));
-        if (x < 1.0f) worst_log = std::max(worst_log, off_by(minus_log(x), -log(Wide{x})));
+        if (x < 1.0f) worst_log = std::max(worst_log, units_off(minus_log(x), -log(Wide{x})));
         const float y = std::ldexp(static_cast<float>(random() >> 8) * 0x1p-24f, static_cast<int>(random() % 8) - 1);
-        if (y < 103.0f) worst_exp = std::max(worst_exp, off_by(exp_of_minus(y), exp(-Wide{y})));
+        if (y < 103.0f) worst_exp = std::max(worst_exp, units_off(exp_of_minus(y), exp(-Wide{y})));
     }
     CHECK(worst_log < 0.5 + 1e-6);
     CHECK(worst_exp < 0.5 + 1e-6);

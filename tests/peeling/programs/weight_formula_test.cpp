@@ -2,13 +2,13 @@
 // and special values by their definition. peeling/reference/algorithms.md 18.3.
 #include "peeling/programs/weight_formula.h"
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
 
 #include "peeling/programs/fixed_passes/log_exp.h"
+#include "tests/peeling/units_off.h"
 
 namespace {
 
@@ -20,15 +20,10 @@ using strata::peeling::WeightFormula;
 using strata::peeling::WeightInputs;
 using strata::peeling::WeightStep;
 using strata::peeling::WeightTerm;
-using Wide = boost::multiprecision::cpp_bin_float_50;
+using strata::testing::units_off;
+using strata::testing::Wide;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-// The error in units of the last place of the real value; below the normal range, of the least subnormal number.
-double units_off(float found, const Wide& real) {
-    const double unit = std::ldexp(1.0, std::max(std::ilogb(static_cast<double>(real)), -126) - 23);
-    return std::abs(static_cast<double>((Wide{found} - real) / unit));
-}
 
 float of_two(WeightTerm term, float a, float b) {
     return weight_by({.text = {}, .steps = {{WeightTerm::number, a}, {WeightTerm::number, b}, {term}}}, {});
