@@ -170,10 +170,18 @@ void choose_other_formats(ByteSource& bytes, const DeviceProfile& profile, const
     if (algorithm != nullptr && algorithm->takes_both_ends && bytes.one_in(4)) o.back_format = bytes.pick(formats);
 }
 
+// alpha exp(-c distance).
+peeling::WeightFormula falling_weight(float c) {
+    using enum peeling::WeightTerm;
+    return {.text = "alpha*exp(-distance*" + std::to_string(c) + ")",
+            .steps = {{alpha}, {distance}, {negated}, {number, c}, {product}, {exponential}, {product}}};
+}
+
 // What single algorithms let choose; most read none of it.
 void choose_of_algorithms(ByteSource& bytes, peeling::AlgorithmOptions& o) {
     if (!bytes.one_in(2)) return;
     o.weight = static_cast<peeling::Weight>(bytes.below(5));
+    if (o.weight == peeling::Weight::constant && bytes.one_in(2)) o.weight_formula = falling_weight(bytes.fraction());
     o.nodes = 1 + bytes.below(peeling::most_nodes);
     if (bytes.one_in(2)) o.tail = static_cast<peeling::Tail>(bytes.below(4));
     if (bytes.one_in(2)) o.pixel_nodes = bytes.below(4);

@@ -24,10 +24,11 @@ void print_options(std::ostream& out, const peeling::RenderOptions& o) {
         << ", average_count " << number(o.average_count);
     const peeling::AlgorithmOptions& a = o.algorithm;
     if (a != peeling::AlgorithmOptions{})
-        out << ", weight " << number(a.weight) << ", nodes " << a.nodes << ", tail " << (a.tail ? number(*a.tail) : -1)
-            << ", pixel_nodes " << a.pixel_nodes << ", frame_nodes " << a.frame_nodes << ", overflow "
-            << number(a.overflow) << ", moments " << a.moments << ", overestimation " << a.overestimation
-            << ", samples " << a.stochastic_samples << ", list_granularity " << number(a.list_granularity);
+        out << ", weight " << (a.weight_formula ? a.weight_formula->text : std::to_string(number(a.weight)))
+            << ", nodes " << a.nodes << ", tail " << (a.tail ? number(*a.tail) : -1) << ", pixel_nodes "
+            << a.pixel_nodes << ", frame_nodes " << a.frame_nodes << ", overflow " << number(a.overflow) << ", moments "
+            << a.moments << ", overestimation " << a.overestimation << ", samples " << a.stochastic_samples
+            << ", list_granularity " << number(a.list_granularity);
     if (o.depth) out << ", depth " << number(*o.depth);
     if (o.depth_path) out << ", depth_path " << number(*o.depth_path);
     if (o.reference_path) out << ", reference_path " << number(*o.reference_path);
