@@ -6,11 +6,17 @@ tools/lab/bench/README.md explains the fairness of the comparison."""
 import argparse
 import json
 import os
+import pathlib
+import random
 import resource
 import statistics
 import subprocess
 import sys
 import tempfile
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "port"))
+import shapes  # noqa: E402
 
 LONG_JOB = 10  # seconds of one llvmpipe measurement: such a job is measured once
 
@@ -29,7 +35,11 @@ SCENES = {
     "dense": {"scene": "teapot:tessellation=128", "alpha": "0.5",
               "camera": {"eye": [0.2, 4.5, 6], "center": [0.2, 1.2, 0], "up": [0, 1, 0],
                          "fovy_degrees": 45, "near": 2, "far": 14}},
+    # Generated: short line segments and points of one pixel anywhere in a cube.
+    "segments": {"kind": shapes.LINES, "count": 1_000_000, "quick_count": 100_000, "alpha": None, "camera": shapes.CAMERAS["wide"]},
+    "points": {"kind": shapes.POINTS, "count": 1_000_000, "quick_count": 100_000, "alpha": None, "camera": shapes.CAMERAS["wide"]},
 }
+LONGEST = 0.01  # half the extent of a segment's box, in units of the cube, whose sides are 2
 # The profile under which Strata is timed: llvmpipe's coverage with planes, codes and blends that are rounded once, for which Strata has fast paths.
 TIMED_PROFILE = {"base": "llvmpipe", "name": "llvmpipe_once",
                  "raster": {"clip": "guard_band", "viewport": "separate", "plane_rule": "exact", "depth_rounding": "nearest"},
@@ -39,7 +49,8 @@ ALGORITHMS = ["depth", "weighted_average", "dual", "front_to_back"]
 # The required ratios with 2 threads at 1024x1024.
 ASKED = {(scene, job): ratio for scene in ("bunny", "dragon")
          for job, ratio in (("depth", 4), ("weighted_average", 3.5), ("dual", 20), ("front_to_back", 20))}
-ASKED |= {("planes", "depth"): 1, ("planes", "weighted_average"): 2, ("planes", "dual"): 50, ("planes", "front_to_back"): 50}
+ASKED |= {("planes", "depth"): 1, ("planes", "weighted_average"): 2, ("planes", "dual"): 50, ("planes", "front_to_back"): 50,
+          ("segments", "dual"): 5, ("points", "dual"): 5}
 
 
 def parse():
@@ -55,7 +66,7 @@ def parse():
                         help="processor: seconds that a frame keeps all threads busy, for a machine that does other work too")
     parser.add_argument("--threads", default="2")
     parser.add_argument("--size", default="1024x1024")
-    parser.add_argument("--quick", action="store_true", help="peel 64 planes instead of 256")
+    parser.add_argument("--quick", action="store_true", help="peel 64 planes instead of 256, and a tenth of the lines and points")
     parser.add_argument("--json", help="write everything that was measured to this file")
     options = parser.parse_args()
     for name, known in (("scenes", list(SCENES)), ("algorithms", ALGORITHMS)):
@@ -81,6 +92,22 @@ def run(words):
     return ended.stdout, ended.stderr
 
 
+def write_shapes(folder, scene, quick):
+    """Writes a generated scene of `count` lines or points once and returns its path."""
+    lines, count = scene["kind"] == shapes.LINES, scene["quick_count" if quick else "count"]
+    path = os.path.join(folder, f"{scene['kind']}.gltf")
+    if not os.path.exists(path):
+        lot, points = random.Random(58), []
+        for _ in range(count):
+            middle = shapes.anywhere(lot)
+            points += [[x + lot.uniform(-LONGEST, LONGEST) for x in middle] for _ in range(2)] if lines else [middle]
+        builder = shapes.scenes.Builder()
+        shapes.shape(builder, points, scene["kind"], lot)
+        with open(path, "w", encoding="ascii") as file:
+            file.write(builder.text())
+    return path
+
+
 def timed_profile(folder):
     """Writes TIMED_PROFILE to a file."""
     path = os.path.join(folder, "timed.json")
@@ -102,8 +129,10 @@ class Bench:
         with open(camera, "w", encoding="ascii") as file:
             json.dump(scene["camera"], file)
         peels = algorithm in ("dual", "front_to_back")
-        spec = os.path.join(o.models, scene["model"]) if "model" in scene else \
-            scene["quick_scene" if o.quick and peels else "scene"]
+        if "kind" in scene:
+            spec = write_shapes(self.folder, scene, o.quick)
+        else:
+            spec = os.path.join(o.models, scene["model"]) if "model" in scene else scene["quick_scene" if o.quick and peels else "scene"]
         alpha = ["--alpha", scene["alpha"]] if scene["alpha"] else []
         return [spec, "--camera", camera, *alpha, "--size", o.size, "--threads", o.threads]
 
@@ -120,7 +149,8 @@ class Bench:
     def strata(self, name, algorithm, *often):
         result = os.path.join(self.folder, "strata.json")
         program = self.options.strata or os.path.join(self.options.build, "strata")
-        run([program, "bench", *self.words(name, algorithm), "--algorithm", algorithm, "--profile", self.profile,
+        run([program, "bench", *self.words(name, algorithm), "--algorithm", algorithm,
+             "--profile", "llvmpipe" if "kind" in SCENES[name] else self.profile,  # rounded once, lines have no rule
              "--execution", "replay", "--output", result, *often])
         with open(result, encoding="utf-8") as file:
             job = json.load(file)["jobs"][0]
