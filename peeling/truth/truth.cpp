@@ -165,7 +165,7 @@ RealImage render_chain(const ChainScene& scene, const Chain& chain) {
     if (scene.options.fog) throw InputError("scene", "fog", "no fog", "one");
     for (const pipeline::Instance& instance : scene.list.instances)
         if (scene.list.meshes[instance.mesh].primitive != pipeline::Primitive::triangles)
-            throw InputError("scene", "primitives", "triangles alone", "lines or points");
+            throw InputError("scene", "primitives", "triangles alone, whose exact picture is known", "lines or points");
     // Only the NVIDIA profiles have the plane and snapping rules that a chain can evaluate.
     const rasterizer::RasterRules& rules = scene.profile.raster;
     const bool is_known = rules.plane_rule == rasterizer::PlaneRule::exact &&

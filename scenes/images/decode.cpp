@@ -55,7 +55,7 @@ void check_read(bool has_read, OIIO::ImageInput& reader, const FileLocation& loc
     if (has_read && !reader.has_error()) return;
     const std::string why = reader.geterror();
     location.fail("IMAGE_DATA_INVALID", "an image that OpenImageIO can decode",
-                  why.empty() ? "an error without a message" : in_quotes(why));
+                  why.empty() ? "one that ends too early or is damaged" : in_quotes(why));
 }
 
 // All channels as stored, 8 bits each.

@@ -169,6 +169,16 @@ void expand_from(Words& words) {
     const std::string own_folder = std::filesystem::path(file).parent_path().string();
     const std::string folder = !given_folder.empty() ? given_folder : own_folder.empty() ? "." : own_folder;
     Words chosen = Recorded{file, folder}.words_of(words.front());
+    const auto is_given = [&](std::string_view option) {
+        return std::ranges::any_of(words, [&](const std::string& word) {
+            return word.starts_with(option) && (word.size() == option.size() || word[option.size()] == '=');
+        });
+    };
+    std::erase_if(chosen, [&](const std::string& word) {
+        const std::string name = word.substr(0, word.find('='));
+        return word.starts_with("--") && (is_given(name) || (name == "--orbit" && is_given("--camera")) ||
+                                          (name == "--camera" && is_given("--orbit")));
+    });
     chosen.push_back(std::string(files_in) + "=" + folder);
     words.insert(words.begin() + 1, chosen.begin(), chosen.end());
 }
@@ -179,7 +189,8 @@ void add_from_option(CLI::App& app, std::string& folder) {
            [](const std::string& file) {
                throw CLI::ValidationError("--from", "expected a picture's name, found '" + file + "'");
            },
-           "draw what this picture shows: the scene and the options of its command (strata info shows it), no output")
+           "draw what this picture shows: the scene and the options of its command (strata info shows it), but for "
+           "those given here; no output")
         ->type_name("FILE");
     add_path(app, folder,
              {std::string(files_in), "FOLDER",

@@ -27,8 +27,9 @@ namespace strata::tools {
 void warn_of_other_command(const std::string& file, const RunOptions& run, std::string_view command);
 
 // Expands `render --from FILE` or `layers --from FILE`: the words of the recorded command replace the two words, with
-// its scene and profile as paths in that folder. --files-in remains, as the folder of a camera's file. Throws
-// InputError if the command has any other option or name, and CLI::ValidationError for --files-in without --from.
+// its scene and profile as paths in that folder; an option that is given replaces the recorded one. --files-in remains,
+// as the folder of a camera's file. Throws InputError if the command has any other option or name, and
+// CLI::ValidationError for --files-in without --from.
 void expand_from(std::vector<std::string>& words);
 
 // Declares --from only for --help, because expand_from removes it before parsing. `files_in` is empty without --from.

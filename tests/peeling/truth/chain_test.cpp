@@ -153,8 +153,9 @@ TEST_CASE("render_chain rejects a scene with lines") {
     list.meshes[1].indices = {0, 0, 1};
     list.meshes[1].primitive = Primitive::lines;
     const RenderOptions options = chain_options();
-    CHECK_THROWS_WITH(render_chain({list, chain_view, *find_profile("ideal"), options}, exact_chain),
-                      "scene: primitives: expected triangles alone, found lines or points");
+    CHECK_THROWS_WITH(
+        render_chain({list, chain_view, *find_profile("ideal"), options}, exact_chain),
+        "scene: primitives: expected triangles alone, whose exact picture is known, found lines or points");
 }
 
 TEST_CASE("render_chain rejects a scene with a shadow light") {

@@ -108,10 +108,10 @@ constexpr std::array pass_effects{
     PassEffect{"stencil test", Effect::stencil_test, [](const PassRecord& p) { return p.state.stencil.enabled; },
                "the pass's state", "no pass enables it, and there is no stencil buffer"},
     PassEffect{"depth test", Effect::depth_test, [](const PassRecord& p) { return p.state.depth.enabled; },
-               "the pass's state", "no pass enables it"},
+               "the pass's state", "no pass of the algorithm enables it"},
     PassEffect{"depth write", Effect::none,
                [](const PassRecord& p) { return p.state.depth.enabled && p.state.depth.write; }, "the pass's state",
-               "no pass writes depth"},
+               "no pass of the algorithm writes depth"},
     PassEffect{"blending", Effect::blending, is_blending, "the pass's state", "no pass blends"}};
 
 // The stages that --effects all runs with a state that changes nothing.
@@ -242,7 +242,7 @@ class Planner {
             "lit materials: ", "every material is unlit");
         add_geometry_row(
             "culling", [](const Material& m) { return !m.double_sided; },
-            fmt::format("drops {} triangles of single-sided materials: ", setup_.culled),
+            fmt::format("drops {} triangles in the algorithm's passes; single-sided: ", setup_.culled),
             "every material is double-sided");
         const RunOptions& options = job_.scene->options;
         add_material_row(
@@ -268,13 +268,14 @@ class Planner {
         add("lines and points", others > 0,
             others > 0 ? fmt::format("{} of {} instances", others, list().instances.size()) : "triangles alone", 0, 0);
         add("user clip planes", o.raster.clip_plane_count > 0, "set by a program alone", 0, 0);
-        add("scissor", o.raster.scissor.has_value(), "set by a program alone", 0, 0);
-        add("polygon offset", o.raster.polygon_offset.enabled, "set by a program alone", 0, 0);
+        add("scissor", o.raster.scissor.has_value(), o.raster.scissor ? "--scissor" : "no --scissor", 0, 0);
+        add("polygon offset", o.raster.polygon_offset.enabled,
+            o.raster.polygon_offset.enabled ? "--polygon-offset" : "no --polygon-offset", 0, 0);
         const auto iterations = static_cast<std::uint64_t>(run_.iterations);
         add("peeling, pass after pass", iterations > 1,
             iterations > 1 ? fmt::format("{} iterations; {} of {} tiles have pixels with several fragments", iterations,
                                          plan_.tiles.layered, plan_.tiles.tiles)
-                           : "one pass is enough for this algorithm and scene",
+                           : "one iteration is enough for this algorithm and scene",
             iterations > 1 ? plan_.geometry_passes : 0, iterations > 1 ? plan_.geometry_passes * drawn : 0);
         const bool asks = log_.queries > 0;
         add("occlusion queries", asks, asks ? "each iteration asks what is left" : "nothing asks",

@@ -171,7 +171,8 @@ const Mistake scene_mistakes[] = {
      [](AlteredRun& e) {
          if (!has_slopes(e)) return false;
          if (has_quotient_depth(e)) return loses_perspective(e, Weighting::affine);
-         if (!pipeline::has_perspective(e.view)) return false;
+         const bool has_w = std::ranges::any_of(e.list->meshes, [](const auto& mesh) { return !mesh.w.empty(); });
+         if (!has_w && !pipeline::has_perspective(e.view)) return false;
          make_affine(e);
          return true;
      }},

@@ -142,6 +142,27 @@ TEST_CASE("a picture's command names files in its own folder or in that of --fil
           "strata: --files-in is valid only with --from\n");
 }
 
+TEST_CASE("an option beside --from replaces the recorded one, and --orbit replaces --camera") {
+    const Folder folder;
+    const auto pixels = [&](const std::string& line) {
+        const CommandResult ended = shell(folder, "strata render " + line + " --no-audit -q -o out.npy");
+        INFO(line << ended.err);
+        REQUIRE(ended.status == 0);
+        std::ifstream file{folder / "out.npy", std::ios::binary};
+        return std::string{std::istreambuf_iterator<char>{file}, {}};
+    };
+    REQUIRE(shell(folder, "strata render teapot --size 32x24 --orbit 10,20 --background 1,1,1 -q --no-audit -o a.png")
+                .status == 0);
+    const std::string from = "--from a.png ";
+    CHECK(pixels(from) == pixels("teapot --size 32x24 --orbit 10,20 --background 1,1,1"));
+    CHECK(pixels(from + "--size 24x16") == pixels("teapot --size 24x16 --orbit 10,20 --background 1,1,1"));
+    CHECK(pixels(from + "--background=0,0,1 --orbit 40,5") ==
+          pixels("teapot --size 32x24 --orbit 40,5 --background 0,0,1"));
+    std::ofstream{folder / "c.json"}
+        << R"({"eye": [0, 1, 9], "center": [0, 1, 0], "up": [0, 1, 0], "fovy_degrees": 30, "near": 1, "far": 20})";
+    CHECK(pixels(from + "--camera c.json") == pixels("teapot --size 32x24 --camera c.json --background 1,1,1"));
+}
+
 TEST_CASE("a picture is redrawn whatever the name of its scene and from a pack with the pack's own state") {
     const Folder folder;
     REQUIRE(shell(folder,
