@@ -104,6 +104,7 @@ class Judge {
         if (layers_->is_right()) return layers_->lost_at_ties() > 0 && is_of_one_mistake ? by_emulation() : by_layers();
         if (is_right_run) return by_emulation();
         if (layers_->is_explained()) {
+            if (layers_->is_explained_by_pairs() && is_fitted()) return;
             if (!layers_->wrong_colors().empty())
                 take(forgotten_alpha(input_, layers_->colors(), layers_->wrong_colors(), is_drawn_by()));
             return by_layers();
@@ -147,7 +148,7 @@ class Judge {
 
     // True if a fit explains the picture. Scenes of many fragments are not fitted.
     [[nodiscard]] bool is_fitted() {
-        const std::uint64_t most_fragments = effort_ == Effort::all ? 1'000'000 : 250'000;
+        constexpr std::uint64_t most_fragments = 1'000'000;
         if (!layers_->single) return false;
         const verdict::SceneFragments& fragments = *layers_->single->fragments;
         if (!fragments.keeps() || fragments.count() > most_fragments) return false;

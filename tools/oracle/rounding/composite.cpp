@@ -118,9 +118,7 @@ Compositor::Channels Compositor::under(const Means& means, std::span<const Layer
     const bool has_few_bits = mixing.color_bits > 0;
     const StorageRounding color = has_few_bits ? few_bits(mixing.color_bits, means.end.rounding) : means.under;
     const StorageRounding weight = has_few_bits ? few_bits(mixing.weight_bits, means.end.rounding) : means.weight;
-    Channels sum{Interval{}, Interval{}, Interval{}, Interval::of(mixing.first_through)};
-    // Rounded if it is a clear value, not if it is a factor.
-    if (mixing.first_through != 1) sum[3] = hull(sum[3], means.weight.kept(sum[3], 1));
+    Channels sum{Interval{}, Interval{}, Interval{}, Interval::of(1)};
     const bool may_be_rounded = means.end.source == SourceRounding::any;
     for (const Layer& layer : near_to_far) {
         const Operand o = operand(means, layer, stack.is_moved);

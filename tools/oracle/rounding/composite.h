@@ -45,7 +45,6 @@ struct Mixing {
     };  // product of 1 - alpha; product of 1 - alpha^2; 1 - sum of alphas
     // The back's factor: the front's transmittance t, t^2, or 1 - t.
     enum class Behind : std::uint8_t { once, twice, inverted };
-    float first_through = 1;
     Through through = Through::product;
     Behind behind = Behind::once;
     bool attenuates = true;  // false: layers are added without the transmittance of the layers before them

@@ -105,22 +105,11 @@ void StackMaker::recolor(const Rule& rule) {
                 break;
             case RuleKind::not_premultiplied: item.layer.is_premultiplied = true; break;
             case RuleKind::red_for_blue: std::swap(color[0], color[2]); break;
-            case RuleKind::alpha_root: color[3] = std::sqrt(color[3]); break;
-            case RuleKind::color_squared:
-                for (std::size_t c = 0; c < 3; ++c) color[c] *= color[c];
-                break;
-            case RuleKind::color_root:
-                for (std::size_t c = 0; c < 3; ++c) color[c] = std::sqrt(std::max(color[c], 0.0f));
-                break;
             case RuleKind::solid:
                 for (std::size_t c = 0; c < 3; ++c) color[c] *= color[3];
                 color[3] = 1;
                 break;
             case RuleKind::channel_lost: color[static_cast<int>(rule.n)] = 0; break;
-            case RuleKind::through_late:
-                for (std::size_t c = 0; c < 3; ++c) color[c] *= color[3] * (1 - color[3]);
-                item.layer.is_premultiplied = true;
-                break;
             case RuleKind::decoded:
             case RuleKind::blended_linear: color = with_each(color, scenes::decode_srgb); break;
             case RuleKind::encoded: color = with_each(color, scenes::encode_srgb); break;
@@ -147,32 +136,11 @@ void StackMaker::set_background(const Rule& rule, const PixelList& pixel) {
             if (!pixel.has_opaque && setting_->seen_background) stack_.background = *setting_->seen_background;
             break;
         case RuleKind::multiplied:
-        case RuleKind::greatest:
-        case RuleKind::least: {
-            Rgba result = stack_.background;
             for (const Layer& layer : stack_.layers)
-                for (std::size_t c = 0; c < 3; ++c) {
-                    const float color =
-                        layer.color[c] * (rule.kind == RuleKind::greatest && rule.n != 0 ? layer.color[3] : 1);
-                    result[c] = rule.kind == RuleKind::multiplied ? result[c] * color
-                                : rule.kind == RuleKind::greatest ? std::max(result[c], color)
-                                                                  : std::min(result[c], color);
-                }
-            stack_.background = result;
+                for (std::size_t c = 0; c < 3; ++c) stack_.background[c] *= layer.color[c];
             stack_.layers.clear();
             stack_.near = stack_.near_without_middle = 0;
             break;
-        }
-        case RuleKind::background_added: {
-            Rgba again = stack_.background;
-            again[3] = 0;
-            if (stack_.layers.empty()) break;
-            stack_.layers.insert(stack_.layers.begin(), Layer{again, true});
-            stack_.background = nothing;
-            ++stack_.near;
-            ++stack_.near_without_middle;
-            break;
-        }
         case RuleKind::decoded:
             if (rule.n == 2 || (rule.n == 1 && pixel.has_opaque))
                 stack_.background = with_each(stack_.background, scenes::decode_srgb);

@@ -52,10 +52,6 @@ void StackMaker::choose_by_number(const Rule& rule) {
             return !is_kept(static_cast<std::size_t>(at));
         });
     };
-    const auto every_second = [&](std::size_t first_lost) {
-        std::size_t number = 0;
-        std::erase_if(items_, [&](const Item&) { return number++ % 2 == first_lost; });
-    };
     switch (rule.kind) {
         case RuleKind::nearest_alone: return keep(0, n);
         case RuleKind::farthest_alone: return keep(rest, all);
@@ -68,18 +64,6 @@ void StackMaker::choose_by_number(const Rule& rule) {
             return;
         case RuleKind::first_submitted: return by_submission([&](std::size_t at) { return at < n; });
         case RuleKind::last_submitted: return by_submission([&](std::size_t at) { return at >= rest; });
-        case RuleKind::submitted_lost: return by_submission([&](std::size_t at) { return at != n; });
-        case RuleKind::submitted_lost_from_last:
-            return by_submission([&](std::size_t at) { return at + n + 1 != all; });
-        case RuleKind::middle_lost:
-            if (all % 2 == 1) items_.erase(items_.begin() + static_cast<std::ptrdiff_t>(all / 2));
-            return;
-        case RuleKind::middle_doubled:
-            if (all % 2 == 1)
-                items_.insert(items_.begin() + static_cast<std::ptrdiff_t>(all / 2), Item{items_[all / 2]});
-            return;
-        case RuleKind::odd_lost: return every_second(1);
-        case RuleKind::even_lost: return every_second(0);
         case RuleKind::ended_early: {
             float through = 1;
             std::size_t kept = 0;
@@ -111,19 +95,8 @@ void StackMaker::choose_by_nature(const Rule& rule, const PixelList& pixel) {
             });
         }
         case RuleKind::some_lost: return lose([&](const Fragment& f) { return is_in(rule, f); });
-        case RuleKind::alpha_below_lost: return lose([&](const Fragment& f) { return f.color[3] < rule.value; });
-        case RuleKind::alpha_below_kept: return lose([&](const Fragment& f) { return !(f.color[3] < rule.value); });
         case RuleKind::behind_drawn: return test([](std::uint32_t own, std::uint32_t kept) { return own < kept; });
         case RuleKind::before_drawn: return test([](std::uint32_t own, std::uint32_t kept) { return own > kept; });
-        case RuleKind::lost_in_bits: {
-            std::optional<std::int64_t> last;
-            return lose([&](const Fragment& f) {
-                const std::int64_t depth = in_bits(f, rule.n);
-                const bool is_there = last == depth;
-                last = depth;
-                return is_there;
-            });
-        }
         case RuleKind::near_opaque_lost:
             return lose([&](const Fragment& f) { return pixel.has_opaque && pixel.opaque - f.code <= rule.n; });
         case RuleKind::opaque_in_front:
@@ -148,25 +121,6 @@ void StackMaker::order(const Rule& rule) {
     };
     switch (rule.kind) {
         case RuleKind::reversed: std::ranges::reverse(items_); return;
-        case RuleKind::near_reversed:
-            std::reverse(items_.begin(), items_.begin() + static_cast<std::ptrdiff_t>((items_.size() + 1) / 2));
-            return;
-        case RuleKind::far_reversed:
-            std::reverse(items_.begin() + static_cast<std::ptrdiff_t>((items_.size() + 1) / 2), items_.end());
-            return;
-        case RuleKind::submitted_moved: {
-            if (items_.empty()) return;
-            const auto less = [](const Item& a, const Item& b) {
-                return a.fragment->primitive < b.fragment->primitive;
-            };
-            const auto one =
-                rule.n % 2 == 0 ? std::ranges::min_element(items_, less) : std::ranges::max_element(items_, less);
-            if (rule.n < 2)
-                std::rotate(items_.begin(), one, one + 1);
-            else
-                std::rotate(one, one + 1, items_.end());
-            return;
-        }
         case RuleKind::by_centroid:
             return by([&](const Fragment& f) {
                 const auto& nearness = setting_->nearness[rule.n];
@@ -179,23 +133,12 @@ void StackMaker::order(const Rule& rule) {
             for (std::size_t i = 0; i + 1 < items_.size(); ++i)
                 if (items_[i].fragment->code > items_[i + 1].fragment->code) std::swap(items_[i], items_[i + 1]);
             return;
-        case RuleKind::nearest_behind:
-            if (!items_.empty()) std::rotate(items_.begin(), items_.begin() + 1, items_.end());
-            return;
-        case RuleKind::farthest_before:
-            if (!items_.empty()) std::rotate(items_.begin(), items_.end() - 1, items_.end());
-            return;
-        case RuleKind::pairs_swapped:
-            for (std::size_t i = 0; i + 1 < items_.size(); i += 2) std::swap(items_[i], items_[i + 1]);
-            return;
         case RuleKind::as_submitted: return by([&](const Fragment& f) { return ~drawn(f, rule.n); });
-        case RuleKind::as_submitted_reversed: return by([&](const Fragment& f) { return drawn(f, rule.n); });
         case RuleKind::by_instance:
             return by([&](const Fragment& f) {
                 const auto& rank = setting_->rank[rule.n];
                 return ~(rank.empty() ? f.instance : rank[f.instance]);
             });
-        case RuleKind::faces_apart: return by([](const Fragment& f) { return !f.is_front_facing; });
         case RuleKind::rest_as_submitted: return as_submitted(n, items_.size());
         case RuleKind::ends_rest_as_submitted: return as_submitted(n, items_.size() - n);
         default: return;
@@ -221,42 +164,11 @@ void StackMaker::edit_one(const Rule& rule) {
         case RuleKind::lost_from_far:
             if (n < all) items_.erase(at(from_far));
             return;
-        case RuleKind::doubled:
-            if (n < all) items_.insert(at(n), Item{items_[n]});
-            return;
-        case RuleKind::doubled_from_far:
-            if (n < all) items_.insert(at(from_far), Item{items_[from_far]});
-            return;
-        case RuleKind::swapped:
-            if (n + 1 < all) std::swap(items_[n], items_[n + 1]);
-            return;
-        case RuleKind::swapped_from_far:
-            if (n + 1 < all) std::swap(items_[from_far], items_[from_far - 1]);
-            return;
-        case RuleKind::merged:
-            if (n + 1 >= all) return;
-            items_[n].layer = verdict::merged(items_[n].layer.color, items_[n + 1].layer.color, n < all / 2);
-            items_.erase(at(n + 1));
-            return;
         case RuleKind::mixed:
             if (n + 1 >= all) return;
             for (std::size_t c = 0; c < 4; ++c)
                 items_[n].layer.color[c] = (items_[n].layer.color[c] + items_[n + 1].layer.color[c]) / 2;
             items_.erase(at(n + 1));
-            return;
-        case RuleKind::color_of_next:
-        case RuleKind::color_of_previous: {
-            const std::size_t from = rule.kind == RuleKind::color_of_next ? n + 1 : n - 1;
-            if (n >= all || from >= all) return;
-            for (std::size_t c = 0; c < 3; ++c) items_[n].layer.color[c] = items_[from].layer.color[c];
-            return;
-        }
-        case RuleKind::colors_shifted:
-        case RuleKind::alphas_shifted:
-            for (std::size_t i = 0; i + 1 < all; ++i)
-                for (std::size_t c = 0; c < 4; ++c)
-                    if ((c == 3) == (rule.kind == RuleKind::alphas_shifted))
-                        items_[i].layer.color[c] = items_[i + 1].layer.color[c];
             return;
         case RuleKind::alphas_as_submitted:
         case RuleKind::colors_as_submitted: {
@@ -269,10 +181,6 @@ void StackMaker::edit_one(const Rule& rule) {
                         items_[i].layer.color[c] = submitted[i].layer.color[c];
             return;
         }
-        case RuleKind::nearest_repeated:
-            for (Item& item : items_) item.layer = items_[0].layer;
-            return;
-        case RuleKind::all_doubled:
         case RuleKind::some_doubled: return doubles();
         default: return;
     }

@@ -16,10 +16,6 @@ void StackMaker::read_elsewhere(const Rule& rule, const PixelList& pixel) {
             x = x / 2 * 2 + rule.dx;
             y = y / 2 * 2 + rule.dy;
             break;
-        case RuleKind::mirrored:
-            if (rule.dx != 0) x = pixel.scene->width() - 1 - x;
-            if (rule.dy != 0) y = pixel.scene->height() - 1 - y;
-            break;
         default: return;
     }
     const std::span<const Fragment> there = pixel.scene->visible_at(x, y);
@@ -46,7 +42,6 @@ void StackMaker::read_elsewhere(const Rule& rule, const PixelList& pixel) {
 void StackMaker::mix(const Rule& rule) {
     Mixing& mixing = stack_.mixing;
     switch (rule.kind) {
-        case RuleKind::veiled: mixing.first_through = rule.value; break;
         case RuleKind::through_squared: mixing.through = Mixing::Through::squared; break;
         case RuleKind::through_summed: mixing.through = Mixing::Through::summed; break;
         case RuleKind::not_attenuated: mixing.attenuates = false; break;

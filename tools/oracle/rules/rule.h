@@ -21,76 +21,43 @@ enum class RuleKind : std::uint8_t {
     farthest_lost,   // all but the farthest n
     rest_averaged,   // the nearest n, and behind them one layer: the average of the others with their combined alpha;
                      // value: 1 with the mean alpha for each
-    rest_as_submitted,         // the nearest n, and behind them the others in submission order
-    ends_rest_as_submitted,    // the nearest n, the others in submission order, the farthest n
-    first_submitted,           // the first n submitted, sorted
-    last_submitted,            // the last n submitted, sorted
-    submitted_lost,            // all except number n in submission order
-    submitted_lost_from_last,  // the same, counted from the last submitted one
-    odd_lost,                  // the second, the fourth ...
-    even_lost,                 // the nearest, the third ...
-    middle_lost,               // of an odd number of layers
-    middle_doubled,
-    ended_early,  // all behind a transmittance of less than `value`
+    rest_as_submitted,       // the nearest n, and behind them the others in submission order
+    ends_rest_as_submitted,  // the nearest n, the others in submission order, the farthest n
+    first_submitted,         // the first n submitted, sorted
+    last_submitted,          // the last n submitted, sorted
+    ended_early,             // all behind a transmittance of less than `value`
     // One layer, with number n
     lost,
     lost_from_far,
-    doubled,
-    doubled_from_far,
-    swapped,           // exchanged with the layer behind it
-    swapped_from_far,  // exchanged with the layer before it
-    merged,            // with the layer behind it, by MAX
-    mixed,             // averaged with the layer behind it
-    color_of_next,     // it has the colour of the layer behind it
-    color_of_previous,
+    mixed,  // averaged with the layer behind it
     // All layers
-    colors_shifted,    // each has the colour of the layer behind it
-    alphas_shifted,    // each has the alpha of the layer behind it
-    nearest_repeated,  // each is a copy of the nearest
-    nearest_behind,    // the nearest is behind all others
-    farthest_before,   // the farthest is in front of all others
-    pairs_swapped,     // every second layer is in front of the one before it
-    ordered_in_bits,   // ordered by depths of n bits, equal depths in submission order
-    lost_in_bits,      // all except the first of equal depths of n bits
-    sorted_once,       // in submission order, with one pass of exchanges of neighbours from near to far
-    all_doubled,
+    ordered_in_bits,  // ordered by depths of n bits, equal depths in submission order
+    sorted_once,      // in submission order, with one pass of exchanges of neighbours from near to far
     reversed,
-    near_reversed,  // the near half, as divided by a peel from both ends, is reversed
-    far_reversed,
-    submitted_moved,        // n: 0 the first submitted is in front of all others, 1 the last; 2 the first is behind all
-                            // others, 3 the last
-    by_centroid,            // by depths of triangles; n: the point of the triangle (setting.h)
-    alphas_as_submitted,    // sorted, but with the alphas in submission order
-    colors_as_submitted,    // sorted, but with the colours in submission order
-    as_submitted,           // the last drawn is in front; n: the drawing order (setting.h)
-    as_submitted_reversed,  // the first drawn is in front
-    by_instance,            // the last instance is in front, with sorted layers; n: the order of instances
-    faces_apart,            // back faces are behind all front faces, each sorted
-    averaged,               // one layer with a weighted average; n: the weights and the alpha (color_rules.cpp)
-    added,                  // premultiplied colours are added to the background
-    weighted_sum,           // premultiplied colours, and the background times 1 - the sum of alphas
-    through_late,           // a layer's own transmittance is applied to its own colour, too
-    multiplied,             // the background times all colours
-    greatest,               // MAX of all colours and the background; n 1: of premultiplied colours
-    least,                  // MIN
-    composed_twice,         // composited over nothing, and the result over the background by its alpha again
+    by_centroid,          // by depths of triangles; n: the point of the triangle (setting.h)
+    alphas_as_submitted,  // sorted, but with the alphas in submission order
+    colors_as_submitted,  // sorted, but with the colours in submission order
+    as_submitted,         // the last drawn is in front; n: the drawing order (setting.h)
+    by_instance,          // the last instance is in front, with sorted layers; n: the order of instances
+    averaged,             // one layer with a weighted average; n: the weights and the alpha (color_rules.cpp)
+    added,                // premultiplied colours are added to the background
+    weighted_sum,         // premultiplied colours, and the background times 1 - the sum of alphas
+    multiplied,           // the background times all colours
+    composed_twice,       // composited over nothing, and the result over the background by its alpha again
     nearest_of_instance,
     // Layers with a property. `scope` is the property, and its number is `of`
     some_lost,
     some_doubled,
-    alpha_below_lost,  // those with alpha below `value` are dropped
-    alpha_below_kept,  // those with alpha of at least `value` are dropped
-    behind_drawn,      // those behind a layer drawn before, as if blended surfaces wrote depth; n: the drawing order
-    before_drawn,      // those in front of a layer drawn before
-    close_lost,        // those within n codes behind the layer before them are dropped
-    close_merged,      // merged by MAX
+    behind_drawn,  // those behind a layer drawn before, as if blended surfaces wrote depth; n: the drawing order
+    before_drawn,  // those in front of a layer drawn before
+    close_lost,    // those within n codes behind the layer before them are dropped
+    close_merged,  // merged by MAX
     close_swapped,
     within_lost,  // the same within `value` of the depth range
     within_merged,
     // Layers of another pixel. n: 0 all layers, else one by its number from 1; dx and dy: the pixel
     shifted,
-    halved,    // of one pixel of each 2 x 2 pixels: dx and dy from the first; n: from this layer on
-    mirrored,  // dx 1: left and right exchanged, dy 1: above and below
+    halved,  // of one pixel of each 2 x 2 pixels: dx and dy from the first; n: from this layer on
     // Pixels whose centre lies on an edge
     edges_twice,  // both triangles at the edge are drawn
     edges_never,  // neither triangle is drawn
@@ -104,12 +71,10 @@ enum class RuleKind : std::uint8_t {
     opaque_in_front,   // layers are not blended over it
     background_lost,   // black behind all; n 1: only behind layers, also instead of the opaque surface
     background_twice,  // added a second time
-    background_added,  // added to the layers as if their transmittance were 1
     background_other,  // another colour, which the candidate has where nothing is drawn
     surface_lost,      // black behind all, also instead of the opaque surface
     surface_mixed,     // `value` of the opaque surface, the rest of the clear colour
     // How layers are blended (composite.h, Mixing)
-    veiled,           // the transmittance starts at `value`
     through_squared,  // the transmittance of a layer is 1 - alpha^2
     through_summed,   // 1 - the sum of alphas
     not_attenuated,   // layers are added without transmittance; the background is attenuated
@@ -122,10 +87,7 @@ enum class RuleKind : std::uint8_t {
     alpha_inverted,
     alpha_ignored,  // alpha is 1
     alpha_times,    // alpha times `value`
-    alpha_root,     // the square root of alpha
-    color_squared,
-    color_root,
-    solid,  // alpha is 1, with premultiplied colours unchanged
+    solid,          // alpha is 1, with premultiplied colours unchanged
     premultiplied_twice,
     not_premultiplied,
     red_for_blue,

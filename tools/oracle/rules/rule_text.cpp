@@ -1,5 +1,9 @@
-// tools/oracle/rules/rule_text.cpp - the sentence of every rule, as verdicts show it.
+// tools/oracle/rules/rule_text.cpp - the table of the kinds of rules: the stage of a port's work, how often ports make
+// the mistake, and its sentence, as verdicts show it.
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 
 #include "pipeline/vertices/draw_list.h"
 #include "tools/oracle/fragments/setting.h"
@@ -28,8 +32,6 @@ std::string material_name(std::uint32_t n, const pipeline::DrawList& list) {
     return material.empty() ? fmt::format("material {}", n) : fmt::format("material {}", material);
 }
 
-std::string codes(std::uint32_t n) { return n == 1 ? "one code" : fmt::format("{} codes", n); }
-
 // "back faces", "what has material glass"; empty for all layers.
 std::string some(const Rule& rule, const pipeline::DrawList& list) {
     switch (rule.scope) {
@@ -44,34 +46,209 @@ std::string some(const Rule& rule, const pipeline::DrawList& list) {
     return fmt::format("the {} layer", ordinal(rule.of, "farthest"));
 }
 
-std::string_view point(std::uint32_t n) {
-    switch (static_cast<TrianglePoint>(n)) {
-        case TrianglePoint::mean: return "their centroids";
-        case TrianglePoint::window_mean: return "the mean of their corners' window depths";
-        case TrianglePoint::nearest: return "their nearest corners";
-        case TrianglePoint::farthest: break;
-    }
-    return "their farthest corners";
-}
+bool is_of_faces(const Rule& rule) { return rule.scope == Scope::back_faces || rule.scope == Scope::front_faces; }
+
+constexpr std::string_view points[] = {"their centroids", "the mean of their corners' window depths",
+                                       "their nearest corners", "their farthest corners"};
+constexpr std::string_view weights[] = {"weighted by alpha, 1 - (1 - the mean alpha)^n for their alpha",
+                                        "weighted by alpha",
+                                        "weighted by alpha^2 (1 - z)^2",
+                                        "weighted by alpha^2 (1 - z)^3",
+                                        "weighted by alpha (1 - z)^3",
+                                        "weighted by alpha 0.03 / (1e-5 + (0.8 z)^4)",
+                                        "weighted as weighted, blended transparency (LearnOpenGL) does"};
+constexpr std::string_view channels[] = {"red", "green", "blue"};
+// What is decoded besides the layers' colours.
+constexpr std::string_view also_decoded[] = {"", ", of opaque surfaces, too,",
+                                             ", of opaque surfaces and the background, too,"};
 
 // The subject of a sentence about rules that read another pixel.
 std::string whose(std::uint32_t n) {
     return n == 0 ? "layers are" : fmt::format("the {} layer is", ordinal(n - 1, "nearest"));
 }
 
-std::string_view weights(std::uint32_t n) {
-    switch (n) {
-        case 0: return "weighted by alpha, 1 - (1 - the mean alpha)^n for their alpha";
-        case 1: return "weighted by alpha";
-        case 2: return "weighted by alpha^2 (1 - z)^2";
-        case 3: return "weighted by alpha^2 (1 - z)^3";
-        case 5: return "weighted by alpha 0.03 / (1e-5 + (0.8 z)^4)";
-        case 6: return "weighted as weighted, blended transparency (LearnOpenGL) does";
-        default: return "weighted by alpha (1 - z)^3";
+std::string codes_of(const Rgba& c) {
+    return fmt::format("{:.0f}, {:.0f}, {:.0f}", c[0] * 255, c[1] * 255, c[2] * 255);
+}
+
+// What a sentence is asked about.
+struct AskedRule {
+    const Rule& rule;
+    const SceneFacts& facts;
+    const pipeline::DrawList& list;
+};
+
+// A part of a sentence that depends on the rule's numbers. Its name stands in braces in the table.
+struct SentencePart {
+    std::string_view name;
+    std::string (*words)(const AskedRule&);
+};
+const SentencePart parts[] = {
+    {"n", [](const AskedRule& a) { return fmt::format("{}", a.rule.n); }},
+    {"layers", [](const AskedRule& a) { return layers(a.rule.n); }},
+    {"layers are", [](const AskedRule& a) { return layers(a.rule.n) + (a.rule.n == 1 ? " is" : " are"); }},
+    {"of all", [](const AskedRule& a) { return fmt::format("of up to {}", a.facts.most_layers); }},
+    {"passes", [](const AskedRule& a) { return a.rule.n == 1 ? "one pass" : fmt::format("{} passes", a.rule.n); }},
+    {"nearest", [](const AskedRule& a) { return ordinal(a.rule.n, "nearest"); }},
+    {"farthest", [](const AskedRule& a) { return ordinal(a.rule.n, "farthest"); }},
+    {"codes", [](const AskedRule& a) { return a.rule.n == 1 ? "one code" : fmt::format("{} codes", a.rule.n); }},
+    {"value", [](const AskedRule& a) { return fmt::format("{:.3g}", a.rule.value); }},
+    {"power", [](const AskedRule& a) { return fmt::format("{:.0e}", a.rule.value); }},
+    {"some are", [](const AskedRule& a) { return some(a.rule, a.list) + (is_of_faces(a.rule) ? " are" : " is"); }},
+    {"drawing", [](const AskedRule& a) { return describe(drawing_order(a.rule.n)); }},
+    {"instances",
+     [](const AskedRule& a) {
+         return describe({static_cast<InstanceOrder>(a.rule.n), FaceOrder::listed});
+     }},
+    {"reverse", [](const AskedRule& a) { return std::string{a.rule.n == 0 ? "" : "reverse "}; }},
+    {"moved", [](const AskedRule& a) { return fmt::format("{},{} pixels", a.rule.dx, a.rule.dy); }},
+    {"first", [](const AskedRule& a) { return fmt::format("{},{} from the first", a.rule.dx, a.rule.dy); }},
+    {"read", [](const AskedRule& a) { return whose(a.rule.n); }},
+    {"channel", [](const AskedRule& a) { return std::string{channels[a.rule.n % 3]}; }},
+    {"weights", [](const AskedRule& a) { return std::string{weights[a.rule.n % std::size(weights)]}; }},
+    {"point", [](const AskedRule& a) { return std::string{points[a.rule.n % triangle_point_count]}; }},
+    {"background", [](const AskedRule& a) { return codes_of(a.facts.background); }},
+    {"also decoded", [](const AskedRule& a) { return std::string{also_decoded[a.rule.n % 3]}; }},
+    {"picture too",
+     [](const AskedRule& a) {
+         return std::string{a.rule.n >> 16 != 0 ? ", and the picture is stored with as few" : ""};
+     }},
+    {"color bits", [](const AskedRule& a) { return fmt::format("{}", a.rule.n & 0xff); }},
+    {"weight bits", [](const AskedRule& a) { return fmt::format("{}", a.rule.n >> 8 & 0xff); }},
+};
+
+struct RuleEntry {
+    RuleKind kind = RuleKind::right;
+    int stage = 0;
+    int commonness = 1;
+    std::string_view words;
+    std::string_view words_of_none = {};  // if the rule's number is 0
+};
+constexpr auto entries = [] {
+    using enum RuleKind;
+    return std::to_array<RuleEntry>({
+        {right, 0, 1, "all layers are composited in their order"},
+        {nearest_alone, 3, 0, "only the nearest {layers} {of all} are composited", "no layer is composited"},
+        {farthest_alone, 3, 1, "only the farthest {layers} {of all} are composited"},
+        {ends_alone, 3, 0,
+         "only the nearest {layers} and the farthest {layers} {of all} are composited, as {passes} of a dual peel "
+         "leave them"},
+        {nearest_lost, 3, 1, "the nearest {layers are} missing"},
+        {farthest_lost, 3, 1, "the farthest {layers are} missing"},
+        {rest_averaged, 6, 1, "behind the nearest {layers} the others are averaged"},
+        {rest_as_submitted, 5, 1, "behind the nearest {layers} the others are composited in the order of submission"},
+        {ends_rest_as_submitted, 5, 1,
+         "between the nearest {layers} and the farthest {layers} the others are composited in the order of submission, "
+         "as {passes} of a dual peel leave them"},
+        {first_submitted, 3, 1, "only the first {layers} submitted are composited: a buffer is full"},
+        {last_submitted, 3, 1, "only the last {layers} submitted are composited"},
+        {ended_early, 3, 1, "layers behind a transmittance below {value} are missing: early termination"},
+        {lost, 4, 0, "the {nearest} layer is missing"},
+        {lost_from_far, 4, 1, "the {farthest} layer is missing"},
+        {mixed, 4, 1, "the {nearest} layer and the one behind it are averaged"},
+        {ordered_in_bits, 5, 1, "layers are ordered by depths of {n} bits, equal ones as submitted"},
+        {sorted_once, 5, 1, "layers are sorted by a single bubble-sort pass"},
+        {reversed, 5, 0, "layers are composited in the reverse order"},
+        {by_centroid, 5, 2, "triangles are sorted by {point}, not fragments by depth"},
+        {alphas_as_submitted, 4, 2, "layers are sorted, but their alphas stay in the {reverse}order of submission"},
+        {colors_as_submitted, 4, 2, "layers are sorted, but their colours stay in the {reverse}order of submission"},
+        {as_submitted, 5, 0, "layers are composited in the order of drawing ({drawing}): nothing is sorted",
+         "layers are composited in the order of submission: nothing is sorted"},
+        {by_instance, 5, 1, "instances are composited one after the other ({instances}), each one sorted by itself",
+         "instances are composited as they are submitted, each one sorted by itself"},
+        {averaged, 6, 0, "layers are averaged, {weights}: nothing is sorted"},
+        {added, 6, 1, "layers are added to the background"},
+        {weighted_sum, 6, 1,
+         "layers are added, and the background is multiplied by 1 - the sum of all alphas: weighted sum"},
+        {multiplied, 6, 1, "the background is multiplied by the layers' colours"},
+        {composed_twice, 6, 1,
+         "layers are composited over transparent black, and the result is multiplied by its alpha again over the "
+         "background"},
+        {nearest_of_instance, 3, 1, "only the nearest layer of each instance is composited"},
+        {some_lost, 2, 1, "{some are} missing"},
+        {some_doubled, 2, 1, "{some are} composited twice"},
+        {behind_drawn, 2, 1,
+         "a layer is missing where a nearer one was drawn before it ({drawing}): blended surfaces write depth"},
+        {before_drawn, 2, 1, "a layer is missing where a farther one was drawn before it"},
+        {close_lost, 2, 1, "of layers within {codes} of depth the farther one is missing"},
+        {close_merged, 2, 1, "layers whose depths differ by at most {codes} are merged by MAX"},
+        {close_swapped, 2, 1, "layers whose depths differ by at most {codes} are composited in exchanged order"},
+        {within_lost, 2, 1, "of layers within {power} of the depth range the farther one is missing: an epsilon"},
+        {within_merged, 2, 1,
+         "layers whose depths differ by at most {power} of the depth range are merged by MAX: an epsilon"},
+        {shifted, 0, 1, "{read} read {moved} to the right and down"},
+        {halved, 0, 1,
+         "layers behind the nearest {layers} are those of one pixel in two by two, {first}: textures of half size",
+         "layers are those of one pixel in two by two, {first}: textures of half size"},
+        {edges_twice, 0, 1, "a centre on an edge is drawn by both triangles beside it"},
+        {edges_never, 0, 1, "a centre on an edge is drawn by neither triangle beside it"},
+        {hidden_shown, 0, 1, "layers behind opaque surfaces are composited: they are not hidden"},
+        {hidden_alone, 0, 1, "layers behind opaque surfaces are composited, and those before them are missing"},
+        {at_opaque_shown, 0, 1, "layers within {codes} behind an opaque surface are composited",
+         "layers at the depth of an opaque surface are composited: LEQUAL for LESS"},
+        {near_opaque_lost, 0, 1, "layers within {codes} before an opaque surface are missing"},
+        {opaque_lost, 0, 1, "opaque surfaces are missing behind the layers"},
+        {opaque_ignored, 0, 1, "opaque surfaces are missing, and layers behind them are composited"},
+        {opaque_in_front, 0, 1, "opaque surfaces cover the layers before them"},
+        {background_lost, 0, 0, "the background and opaque surfaces are black behind layers",
+         "the background is missing: black behind the layers"},
+        {background_twice, 0, 1, "the background is added twice"},
+        {background_other, 0, 0, "the background is {background} of 255"},
+        {surface_lost, 0, 1, "the background and opaque surfaces are missing: black behind the layers"},
+        {surface_mixed, 0, 1, "opaque surfaces are mixed with the clear colour: {value} of the surface"},
+        {through_squared, 6, 1, "a layer's transmittance is 1 - alpha^2 instead of 1 - alpha"},
+        {through_summed, 6, 1, "transmittance is 1 - the sum of alphas"},
+        {not_attenuated, 6, 1, "layers are added without the transmittance of those before them"},
+        {behind_squared, 6, 1, "the transmittance is applied twice to the background"},
+        {behind_inverted, 6, 1, "the background is weighted by 1 - transmittance"},
+        {few_bits, 6, 2,
+         "the accumulator stores colours with {color bits} bits and transmittance with {weight bits}{picture too}"},
+        {alpha_squared, 1, 0, "alpha is squared"},
+        {alpha_inverted, 1, 1, "alpha is replaced by 1 - alpha"},
+        {alpha_ignored, 1, 0, "alpha is replaced by 1: nothing is blended"},
+        {alpha_times, 1, 1, "alpha is multiplied by {value}"},
+        {solid, 4, 1, "transmittance is 0 although colours are premultiplied"},
+        {premultiplied_twice, 1, 0, "colours are multiplied by alpha twice"},
+        {not_premultiplied, 6, 0, "colours are not multiplied by alpha"},
+        {red_for_blue, 1, 1, "red and blue are exchanged in the layers"},
+        {channel_lost, 1, 1, "{channel} is missing in the layers"},
+        {decoded, 1, 0, "colours{also decoded} are decoded from sRGB before they are blended, and not encoded again"},
+        {encoded, 1, 1, "colours are encoded to sRGB before they are blended"},
+        {blended_linear, 6, 0, "colours are decoded from sRGB, blended in linear light and encoded again"},
+        {picture_encoded, 7, 1, "the finished picture is encoded to sRGB again"},
+        {picture_decoded, 7, 1, "the finished picture is decoded from sRGB again, or not encoded"},
+        {rows_reversed, 7, 1, "the picture is upside down"},
+        {columns_reversed, 7, 1, "left and right are exchanged"},
+        {turned, 7, 1, "the picture is rotated by 180 degrees"},
+    });
+}();
+static_assert([] {
+    std::size_t number = 0;
+    return entries.size() == rule_kind_count && std::ranges::all_of(entries, [&](const RuleEntry& e) {
+               return static_cast<std::size_t>(e.kind) == number++;
+           });
+}());
+
+const RuleEntry& entry_of(RuleKind kind) { return entries[static_cast<std::size_t>(kind)]; }
+
+// The words with their parts filled in.
+std::string filled(std::string_view words, const AskedRule& asked) {
+    std::string text;
+    while (true) {
+        const std::size_t open = words.find('{');
+        text += words.substr(0, open);
+        if (open == std::string_view::npos) return text;
+        const std::size_t close = words.find('}', open);
+        const std::string_view name = words.substr(open + 1, close - open - 1);
+        text += std::ranges::find(parts, name, &SentencePart::name)->words(asked);
+        words.remove_prefix(close + 1);
     }
 }
 
 }  // namespace
+
+int commonness_of(RuleKind kind) noexcept { return entry_of(kind).commonness; }
+int stage_of(RuleKind kind) noexcept { return entry_of(kind).stage; }
 
 std::string description(const std::vector<Rule>& rules, const SceneFacts& facts, const pipeline::DrawList& list) {
     std::string text;
@@ -87,210 +264,11 @@ std::string description(const Rule& rule, const SceneFacts& facts, const pipelin
         return fmt::format("within x {} to {} and y {} to {}: {}", r.x0, r.x1 - 1, r.y0, r.y1 - 1,
                            description(everywhere, facts, list));
     }
-    if (rule.scope != Scope::all && rule.kind != RuleKind::some_lost && rule.kind != RuleKind::some_doubled) {
-        Rule of_all = rule;
-        of_all.scope = Scope::all;
-        return fmt::format("of {} {}", some(rule, list), description(of_all, facts, list));
-    }
-    const std::uint32_t n = rule.n;
-    const auto of = [&] { return fmt::format("of up to {}", facts.most_layers); };
-    switch (rule.kind) {
-        case RuleKind::right: return "all layers are composited in their order";
-        case RuleKind::nearest_alone:
-            return n == 0 ? "no layer is composited"
-                          : fmt::format("only the nearest {} {} are composited", layers(n), of());
-        case RuleKind::farthest_alone: return fmt::format("only the farthest {} {} are composited", layers(n), of());
-        case RuleKind::ends_alone:
-            return fmt::format(
-                "only the nearest {0} and the farthest {0} {1} are composited, as {2} of a dual peel leave them",
-                layers(n), of(), n == 1 ? "one pass" : fmt::format("{} passes", n));
-        case RuleKind::nearest_lost:
-            return fmt::format("the nearest {} missing", n == 1 ? "layer is" : layers(n) + " are");
-        case RuleKind::farthest_lost:
-            return fmt::format("the farthest {} missing", n == 1 ? "layer is" : layers(n) + " are");
-        case RuleKind::rest_averaged: return fmt::format("behind the nearest {} the others are averaged", layers(n));
-        case RuleKind::rest_as_submitted:
-            return fmt::format("behind the nearest {} the others are composited in the order of submission", layers(n));
-        case RuleKind::ends_rest_as_submitted:
-            return fmt::format(
-                "between the nearest {0} and the farthest {0} the others are composited in the order of submission, as "
-                "{1} of a dual peel leave them",
-                layers(n), n == 1 ? "one pass" : fmt::format("{} passes", n));
-        case RuleKind::odd_lost: return "every second layer is missing: the second, the fourth ...";
-        case RuleKind::even_lost: return "every second layer is missing: the nearest, the third ...";
-        case RuleKind::ended_early:
-            return fmt::format("layers behind a transmittance below {:.3g} are missing: early termination", rule.value);
-        case RuleKind::first_submitted:
-            return fmt::format("only the first {} submitted are composited: a buffer is full", layers(n));
-        case RuleKind::last_submitted: return fmt::format("only the last {} submitted are composited", layers(n));
-        case RuleKind::lost: return fmt::format("the {} layer is missing", ordinal(n, "nearest"));
-        case RuleKind::lost_from_far: return fmt::format("the {} layer is missing", ordinal(n, "farthest"));
-        case RuleKind::doubled: return fmt::format("the {} layer is composited twice", ordinal(n, "nearest"));
-        case RuleKind::doubled_from_far: return fmt::format("the {} layer is composited twice", ordinal(n, "farthest"));
-        case RuleKind::swapped:
-            return fmt::format("the {} layer is exchanged with the one behind it", ordinal(n, "nearest"));
-        case RuleKind::swapped_from_far:
-            return fmt::format("the {} layer is exchanged with the one before it", ordinal(n, "farthest"));
-        case RuleKind::merged:
-            return fmt::format("the {} layer and the one behind it are merged by MAX", ordinal(n, "nearest"));
-        case RuleKind::mixed:
-            return fmt::format("the {} layer and the one behind it are averaged", ordinal(n, "nearest"));
-        case RuleKind::color_of_next:
-            return fmt::format("the {} layer has the colour of the one behind it", ordinal(n, "nearest"));
-        case RuleKind::color_of_previous:
-            return fmt::format("the {} layer has the colour of the one before it", ordinal(n, "nearest"));
-        case RuleKind::all_doubled: return "every layer is composited twice";
-        case RuleKind::reversed: return "layers are composited in the reverse order";
-        case RuleKind::as_submitted:
-            return fmt::format("layers are composited in the order of {}: nothing is sorted",
-                               n == 0 ? "submission" : fmt::format("drawing ({})", describe(drawing_order(n))));
-        case RuleKind::as_submitted_reversed: return "layers are composited in the reverse order of submission";
-        case RuleKind::by_instance:
-            if (n == 0) return "instances are composited as they are submitted, each one sorted by itself";
-            return fmt::format("instances are composited one after the other ({}), each one sorted by itself",
-                               describe({static_cast<InstanceOrder>(n), FaceOrder::listed}));
-        case RuleKind::faces_apart: return "all back faces are composited behind all front faces";
-        case RuleKind::averaged: return fmt::format("layers are averaged, {}: nothing is sorted", weights(n));
-        case RuleKind::middle_lost: return "of an odd number of layers the middle one is missing";
-        case RuleKind::middle_doubled: return "of an odd number of layers the middle one is composited twice";
-        case RuleKind::colors_shifted: return "each layer has the colour of the one behind it";
-        case RuleKind::alphas_shifted: return "each layer has the alpha of the one behind it";
-        case RuleKind::nearest_repeated: return "the nearest layer is composited in place of every other one";
-        case RuleKind::nearest_behind: return "the nearest layer is composited behind all others";
-        case RuleKind::farthest_before: return "the farthest layer is composited before all others";
-        case RuleKind::pairs_swapped:
-            return "neighbouring layers are exchanged in pairs: 2, 1, 4, 3 ... from the nearest";
-        case RuleKind::ordered_in_bits:
-            return fmt::format("layers are ordered by depths of {} bits, equal ones as submitted", n);
-        case RuleKind::lost_in_bits:
-            return fmt::format("of layers at one depth of {} bits the nearest alone is composited", n);
-        case RuleKind::sorted_once: return "layers are sorted by a single bubble-sort pass";
-        case RuleKind::through_late:
-            return "a layer's colour is multiplied by its own transmittance, too: the product is updated too early";
-        case RuleKind::multiplied: return "the background is multiplied by the layers' colours";
-        case RuleKind::greatest: return "each channel is the maximum of all colours: MAX blending";
-        case RuleKind::least: return "each channel is the minimum of all colours: MIN blending";
-        case RuleKind::composed_twice:
-            return "layers are composited over transparent black, and the result is multiplied by its alpha again over "
-                   "the background";
-        case RuleKind::added: return "layers are added to the background";
-        case RuleKind::weighted_sum:
-            return "layers are added, and the background is multiplied by 1 - the sum of all alphas: weighted sum";
-        case RuleKind::nearest_of_instance: return "only the nearest layer of each instance is composited";
-        case RuleKind::alpha_below_lost: return fmt::format("layers with alpha below {:.4g} are missing", rule.value);
-        case RuleKind::alpha_below_kept:
-            return fmt::format("layers with alpha of {:.4g} and more are missing", rule.value);
-        case RuleKind::some_lost:
-            return fmt::format("{} {} missing", some(rule, list),
-                               rule.scope == Scope::back_faces || rule.scope == Scope::front_faces ? "are" : "is");
-        case RuleKind::some_doubled:
-            return fmt::format("{} {} composited twice", some(rule, list),
-                               rule.scope == Scope::back_faces || rule.scope == Scope::front_faces ? "are" : "is");
-        case RuleKind::behind_drawn:
-            return fmt::format(
-                "a layer is missing where a nearer one was drawn before it ({}): blended surfaces write depth",
-                describe(drawing_order(n)));
-        case RuleKind::before_drawn: return "a layer is missing where a farther one was drawn before it";
-        case RuleKind::close_lost:
-            return fmt::format("of layers within {} of depth the farther one is missing", codes(n));
-        case RuleKind::within_lost:
-            return fmt::format("of layers within {:.0e} of the depth range the farther one is missing: an epsilon",
-                               rule.value);
-        case RuleKind::within_merged:
-            return fmt::format(
-                "layers whose depths differ by at most {:.0e} of the depth range are merged by MAX: an epsilon",
-                rule.value);
-        case RuleKind::close_merged:
-            return fmt::format("layers whose depths differ by at most {} are merged by MAX", codes(n));
-        case RuleKind::close_swapped:
-            return fmt::format("layers whose depths differ by at most {} are composited in exchanged order", codes(n));
-        case RuleKind::edges_twice: return "a centre on an edge is drawn by both triangles beside it";
-        case RuleKind::edges_never: return "a centre on an edge is drawn by neither triangle beside it";
-        case RuleKind::hidden_shown: return "layers behind opaque surfaces are composited: they are not hidden";
-        case RuleKind::hidden_alone:
-            return "layers behind opaque surfaces are composited, and those before them are missing";
-        case RuleKind::at_opaque_shown:
-            return n == 0 ? "layers at the depth of an opaque surface are composited: LEQUAL for LESS"
-                          : fmt::format("layers within {} behind an opaque surface are composited", codes(n));
-        case RuleKind::near_opaque_lost:
-            return fmt::format("layers within {} before an opaque surface are missing", codes(n));
-        case RuleKind::opaque_lost: return "opaque surfaces are missing behind the layers";
-        case RuleKind::opaque_ignored: return "opaque surfaces are missing, and layers behind them are composited";
-        case RuleKind::opaque_in_front: return "opaque surfaces cover the layers before them";
-        case RuleKind::background_lost:
-            return n != 0 ? "the background and opaque surfaces are black behind layers"
-                          : "the background is missing: black behind the layers";
-        case RuleKind::background_twice: return "the background is added twice";
-        case RuleKind::background_added: return "the background is added without the transmittance of the layers";
-        case RuleKind::background_other:
-            return fmt::format("the background is {:.0f}, {:.0f}, {:.0f} of 255", facts.background[0] * 255,
-                               facts.background[1] * 255, facts.background[2] * 255);
-        case RuleKind::surface_lost: return "the background and opaque surfaces are missing: black behind the layers";
-        case RuleKind::alpha_squared: return "alpha is squared";
-        case RuleKind::alpha_inverted: return "alpha is replaced by 1 - alpha";
-        case RuleKind::alpha_ignored: return "alpha is replaced by 1: nothing is blended";
-        case RuleKind::alpha_times: return fmt::format("alpha is multiplied by {:.3g}", rule.value);
-        case RuleKind::alpha_root: return "alpha is replaced by its square root";
-        case RuleKind::channel_lost:
-            return fmt::format("{} is missing in the layers", n == 0 ? "red" : n == 1 ? "green" : "blue");
-        case RuleKind::premultiplied_twice: return "colours are multiplied by alpha twice";
-        case RuleKind::not_premultiplied: return "colours are not multiplied by alpha";
-        case RuleKind::red_for_blue: return "red and blue are exchanged in the layers";
-        case RuleKind::decoded:
-            return fmt::format("colours{} are decoded from sRGB before they are blended, and not encoded again",
-                               n == 0   ? ""
-                               : n == 1 ? ", of opaque surfaces, too,"
-                                        : ", of opaque surfaces and the background, too,");
-        case RuleKind::encoded: return "colours are encoded to sRGB before they are blended";
-        case RuleKind::picture_encoded: return "the finished picture is encoded to sRGB again";
-        case RuleKind::picture_decoded: return "the finished picture is decoded from sRGB again, or not encoded";
-        case RuleKind::rows_reversed: return "the picture is upside down";
-        case RuleKind::columns_reversed: return "left and right are exchanged";
-        case RuleKind::turned: return "the picture is rotated by 180 degrees";
-        case RuleKind::submitted_lost:
-            return fmt::format("the {} layer is missing", n == 0 ? "first submitted" : ordinal(n, "submitted"));
-        case RuleKind::submitted_lost_from_last:
-            return fmt::format("the {} layer that was submitted is missing", ordinal(n, "last"));
-        case RuleKind::near_reversed: return "the near half of the layers is composited in the reverse order";
-        case RuleKind::far_reversed: return "the far half of the layers is composited in the reverse order";
-        case RuleKind::submitted_moved:
-            return fmt::format("the layer that is submitted {} is composited {} all others",
-                               n % 2 == 0 ? "first" : "last", n < 2 ? "in front of" : "behind");
-        case RuleKind::by_centroid: return fmt::format("triangles are sorted by {}, not fragments by depth", point(n));
-        case RuleKind::alphas_as_submitted:
-            return fmt::format("layers are sorted, but their alphas stay in the {}order of submission",
-                               n == 0 ? "" : "reverse ");
-        case RuleKind::colors_as_submitted:
-            return fmt::format("layers are sorted, but their colours stay in the {}order of submission",
-                               n == 0 ? "" : "reverse ");
-        case RuleKind::shifted:
-            return fmt::format("{} read {},{} pixels to the right and down", whose(n), rule.dx, rule.dy);
-        case RuleKind::halved:
-            return fmt::format(
-                "layers{} are those of one pixel in two by two, {},{} from the first: textures of half size",
-                n == 0 ? "" : fmt::format(" behind the nearest {}", layers(n)), rule.dx, rule.dy);
-        case RuleKind::mirrored:
-            return fmt::format("{} read {}", whose(n),
-                               rule.dx == 0   ? "upside down"
-                               : rule.dy == 0 ? "with left and right exchanged"
-                                              : "turned by half a turn");
-        case RuleKind::surface_mixed:
-            return fmt::format("opaque surfaces are mixed with the clear colour: {:.3g} of the surface", rule.value);
-        case RuleKind::veiled: return fmt::format("transmittance starts at {:.3g} instead of 1", rule.value);
-        case RuleKind::through_squared: return "a layer's transmittance is 1 - alpha^2 instead of 1 - alpha";
-        case RuleKind::through_summed: return "transmittance is 1 - the sum of alphas";
-        case RuleKind::not_attenuated: return "layers are added without the transmittance of those before them";
-        case RuleKind::behind_squared: return "the transmittance is applied twice to the background";
-        case RuleKind::behind_inverted: return "the background is weighted by 1 - transmittance";
-        case RuleKind::few_bits:
-            return fmt::format("the accumulator stores colours with {} bits and transmittance with {}{}", n & 0xff,
-                               n >> 8 & 0xff, n >> 16 != 0 ? ", and the picture is stored with as few" : "");
-        case RuleKind::color_squared: return "colours are squared";
-        case RuleKind::color_root: return "colours are replaced by their square roots";
-        case RuleKind::solid: return "transmittance is 0 although colours are premultiplied";
-        case RuleKind::blended_linear: break;
-    }
-    return "colours are decoded from sRGB, blended in linear light and encoded again";
+    const RuleEntry& entry = entry_of(rule.kind);
+    const bool is_none = rule.n == 0 && !entry.words_of_none.empty();
+    const std::string words = filled(is_none ? entry.words_of_none : entry.words, {rule, facts, list});
+    const bool names_scope = rule.kind == RuleKind::some_lost || rule.kind == RuleKind::some_doubled;
+    return rule.scope == Scope::all || names_scope ? words : fmt::format("of {} {}", some(rule, list), words);
 }
 
 }  // namespace strata::oracle::verdict

@@ -12,7 +12,7 @@ namespace strata::oracle::verdict {
 
 namespace {
 
-// Instances, materials, alphas: rules for single ones are made only up to this number.
+// Instances, materials: rules for single ones are made only up to this number.
 constexpr std::size_t most_of_a_kind = 64;
 
 template <class T>
@@ -28,7 +28,6 @@ SceneFacts facts_of(const SceneFragments& scene, const Sample& sample) {
     facts.has_other_background = scene.setting().seen_background.has_value();
     facts.background = scene.setting().seen_background.value_or(Rgba{});
     std::set<std::uint32_t> instances, materials;
-    std::set<float> alphas;
     std::set<bool> facings;
     for (const SampledPixel& pixel : sample.pixels()) {
         facts.has_opaque |= pixel.list.has_opaque;
@@ -38,13 +37,11 @@ SceneFacts facts_of(const SceneFragments& scene, const Sample& sample) {
             instances.insert(f.instance);
             materials.insert(f.material);
             facings.insert(f.is_front_facing);
-            if (alphas.size() <= most_of_a_kind) alphas.insert(f.color[3]);
         }
     }
     facts.has_two_facings = facings.size() == 2;
     facts.instances = few(instances);
     facts.materials = few(materials);
-    facts.alphas = few(alphas);
     return facts;
 }
 
@@ -69,23 +66,18 @@ void add_counts(Rules& all, std::uint32_t most) {
                   last_submitted},
                  1, most);
     for (std::uint32_t n = 1; n < most; ++n) all.push_back({.kind = rest_averaged, .n = n, .value = 1});
-    add_numbered(all, {submitted_lost, submitted_lost_from_last}, 0, most);
-    if (most > 2) add(all, {odd_lost, even_lost, middle_lost, middle_doubled});
     for (const float through : {1.0f / 255, 0.01f, 0.02f, 0.05f, 0.1f, 0.2f, 0.25f, 0.5f})
         all.push_back({.kind = ended_early, .value = through});
 }
 
 void add_orders(Rules& all, const SceneFacts& facts) {
     using enum RuleKind;
-    add(all, {reversed, as_submitted_reversed});
+    add(all, {reversed});
     if (facts.most_layers > 1) {
-        add(all, {near_reversed, far_reversed});
-        add_numbered(all, {submitted_moved}, 0, 4);
         add_numbered(all, {by_centroid}, 0, triangle_point_count);
         add_numbered(all, {alphas_as_submitted, colors_as_submitted}, 0, 2);
-        add(all, {nearest_behind, farthest_before, pairs_swapped, sorted_once, nearest_repeated, colors_shifted,
-                  alphas_shifted});
-        add_numbered(all, {ordered_in_bits, lost_in_bits}, 6, 24);
+        add(all, {sorted_once});
+        add_numbered(all, {ordered_in_bits}, 6, 24);
     }
     const std::uint32_t orders = facts.instances.size() > 1 ? instance_order_count : 1;
     const std::uint32_t faces = facts.has_two_facings ? face_order_count : 1;
@@ -93,7 +85,6 @@ void add_orders(Rules& all, const SceneFacts& facts) {
         for (std::uint32_t i = 0; i < orders; ++i)
             for (std::uint32_t f = 0; f < faces; ++f) all.push_back({.kind = kind, .n = i * face_order_count + f});
     add(all, {before_drawn});
-    if (facts.has_two_facings) add(all, {faces_apart});
     if (facts.instances.size() > 1) {
         add_numbered(all, {by_instance}, 0, instance_order_count);
         add(all, {nearest_of_instance});
@@ -115,8 +106,7 @@ std::vector<Rule> scopes_of(const SceneFacts& facts) {
 void add_scoped(Rules& all, const SceneFacts& facts) {
     using enum RuleKind;
     constexpr RuleKind colors[] = {alpha_squared,     alpha_inverted, alpha_ignored, premultiplied_twice,
-                                   not_premultiplied, red_for_blue,   decoded,       encoded,
-                                   alpha_root,        color_squared,  color_root};
+                                   not_premultiplied, red_for_blue,   decoded,       encoded};
     constexpr float factors[] = {0.25f, 0.5f, 0.75f, 0.8f, 0.9f, 1.25f, 1.5f, 2.0f};
     const auto add_colors = [&](const Rule& scope) {
         for (const RuleKind kind : colors) all.push_back({.kind = kind, .scope = scope.scope, .of = scope.of});
@@ -133,14 +123,6 @@ void add_scoped(Rules& all, const SceneFacts& facts) {
             all.push_back({.kind = kind, .scope = scope.scope, .of = scope.of});
         add_colors(scope);
     }
-    std::vector<float> thresholds = facts.alphas;
-    if (thresholds.empty() && facts.most_layers > 0) {
-        for (int i = 1; i < 20; ++i) thresholds.push_back(static_cast<float>(i) / 20);
-        for (const float few : {1.0f / 255, 0.01f, 0.02f}) thresholds.push_back(few);
-    }
-    for (std::size_t i = facts.alphas.empty() ? 0 : 1; i < thresholds.size(); ++i)
-        for (const RuleKind kind : {alpha_below_lost, alpha_below_kept})
-            all.push_back({.kind = kind, .value = thresholds[i]});
     const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(facts.most_layers, 16));
     for (std::uint32_t n = 0; n < most; ++n)
         for (const Scope scope : {Scope::layer, Scope::layer_from_far}) add_colors({.scope = scope, .of = n});
@@ -171,14 +153,12 @@ void add_elsewhere(Rules& all, const SceneFacts& facts) {
         for (const int x : {-1, 1})
             for (const int y : {-1, 1}) all.push_back({.kind = shifted, .n = n, .dx = x, .dy = y});
         for (int i = 0; i < 4; ++i) all.push_back({.kind = halved, .n = n, .dx = i % 2, .dy = i / 2});
-        for (int i = 1; i < 4; ++i) all.push_back({.kind = mirrored, .n = n, .dx = i % 2, .dy = i / 2});
     }
 }
 
 void add_mixings(Rules& all) {
     using enum RuleKind;
     add(all, {through_squared, through_summed, not_attenuated, behind_squared, behind_inverted});
-    for (int i = 0; i < 20; ++i) all.push_back({.kind = veiled, .value = static_cast<float>(i) / 20});
     for (const std::uint32_t picture : {0u, 1u})
         for (const auto& [colors, weight] :
              {std::pair{10, 2}, {7, 7}, {6, 6}, {5, 5}, {5, 1}, {4, 4}, {3, 3}, {2, 2}, {8, 4}, {8, 2}, {8, 1}})
@@ -195,9 +175,8 @@ std::vector<Rule> rules_for(const SceneFacts& facts) {
     add_orders(all, facts);
     add_numbered(all, {averaged}, 0, 7);
     add_mixings(all);
-    all.push_back({.kind = greatest, .n = 1});
-    add(all, {added, weighted_sum, through_late, multiplied, greatest, least, composed_twice, all_doubled,
-              background_lost, background_twice, background_added, surface_lost, picture_encoded, picture_decoded});
+    add(all, {added, weighted_sum, multiplied, composed_twice, background_lost, background_twice, surface_lost,
+              picture_encoded, picture_decoded});
     all.push_back({.kind = background_lost, .n = 1});
     if (facts.has_other_background) add(all, {background_other});
     if (facts.has_centres_on_edges) add(all, {edges_twice, edges_never});
@@ -208,9 +187,8 @@ std::vector<Rule> rules_for(const SceneFacts& facts) {
     add_depths(all, facts);
     add_scoped(all, facts);
     add_elsewhere(all, facts);
-    add_numbered(all, {lost, lost_from_far, doubled, doubled_from_far}, 0, most);
-    if (most > 1)
-        add_numbered(all, {swapped, swapped_from_far, merged, mixed, color_of_next, color_of_previous}, 0, most - 1);
+    add_numbered(all, {lost, lost_from_far}, 0, most);
+    if (most > 1) add_numbered(all, {mixed}, 0, most - 1);
     return all;
 }
 
@@ -232,15 +210,13 @@ std::vector<Rule> one_of_each_kind(const SceneFacts& facts) {
         of(kind).scope = Scope::instance;
         of(kind).of = facts.instances.empty() ? 0 : facts.instances[0];
     }
-    for (const RuleKind kind : {RuleKind::alpha_below_lost, RuleKind::alpha_below_kept})
-        of(kind).value = facts.alphas.size() > 1 ? facts.alphas[1] : 0.5f;
     of(RuleKind::alpha_times).value = 0.9f;
-    of(RuleKind::veiled).value = of(RuleKind::surface_mixed).value = 0.9f;
+    of(RuleKind::surface_mixed).value = 0.9f;
     of(RuleKind::few_bits).n = 7 | 7 << 8;
-    of(RuleKind::shifted).dx = of(RuleKind::mirrored).dx = 1;
+    of(RuleKind::shifted).dx = 1;
     of(RuleKind::solid).scope = Scope::layer_from_far;
     of(RuleKind::ended_early).value = 1.0f / 255;
-    for (const RuleKind kind : {RuleKind::ordered_in_bits, RuleKind::lost_in_bits}) of(kind).n = 16;
+    of(RuleKind::ordered_in_bits).n = 16;
     // Removes kinds that depend on the picture, and those that do not change the structure.
     std::erase_if(all, [](const Rule& rule) {
         return rule.kind == RuleKind::right || rule.kind == RuleKind::background_other ||

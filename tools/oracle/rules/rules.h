@@ -21,8 +21,7 @@ class SceneFragments;
 struct SceneFacts {
     std::size_t most_layers = 0;  // largest number of visible fragments of a pixel
     std::vector<std::uint32_t> instances{}, materials{};
-    Rgba background{};            // the colour of background_other
-    std::vector<float> alphas{};  // all distinct alphas, ascending, if there are few
+    Rgba background{};  // the colour of background_other
     bool has_opaque = false, has_hidden = false, has_two_facings = false, has_centres_on_edges = false,
          has_other_background = false;
 };
@@ -33,11 +32,11 @@ struct SceneFacts {
 // The rank of a mistake by how often ports make it: 0 the usual ones. Explanations that this scene cannot distinguish
 // are reported in this order.
 [[nodiscard]] int commonness_of(RuleKind kind) noexcept;
-// One rule per kind; if the kind has parameters, the values with the smallest effect.
-[[nodiscard]] std::vector<Rule> one_of_each_kind(const SceneFacts& facts);
 // The order in which two rules are applied: first those that select layers, then those that order them, then those that
 // change colours.
 [[nodiscard]] int stage_of(RuleKind kind) noexcept;
+// One rule per kind; if the kind has parameters, the values with the smallest effect.
+[[nodiscard]] std::vector<Rule> one_of_each_kind(const SceneFacts& facts);
 
 // "instance 2 (mesh decal)".
 [[nodiscard]] std::string instance_name(std::uint32_t n, const pipeline::DrawList& list);

@@ -203,7 +203,6 @@ std::string key_of(const StackedPixel& pixel) {
         add(stack.is_linear);
         add(stack.finish);
         add(stack.is_moved);
-        add(stack.mixing.first_through);
         add(stack.mixing.through);
         add(stack.mixing.behind);
         add(stack.mixing.attenuates);

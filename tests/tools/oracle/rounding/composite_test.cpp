@@ -110,7 +110,6 @@ TEST_CASE("each variant of blending reaches the value that is worked out by hand
     using Through = Mixing::Through;
     using Behind = Mixing::Behind;
     CHECK(red({}) == Approx(0.25 + 0.75 * 0.375 + 0.1875));
-    CHECK(red({.first_through = 0.5f}) == Approx(0.5 * (0.25 + 0.75 * 0.375 + 0.1875)));
     CHECK(red({.through = Through::squared}) == Approx(0.25 + 0.9375 * 0.375 + 0.9375 * 0.4375));
     CHECK(red({.through = Through::summed}) == Approx(0.25 + 0.75 * 0.375));
     CHECK(red({.behind = Behind::twice}) == Approx(0.25 + 0.75 * 0.375 + 0.1875 * 0.1875));

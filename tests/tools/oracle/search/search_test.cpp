@@ -40,14 +40,6 @@ const std::vector<WrongPort>& wrong_ports() {
          }},
         {"lost 1", [](PortList& l) { lose(l, 1); }},
         {"lost_from_far 0", [](PortList& l) { lose(l, l.visible.size() - 1); }},
-        {"doubled 0",
-         [](PortList& l) {
-             if (!l.visible.empty()) l.visible.insert(l.visible.begin(), pipeline::CapturedFragment{l.visible[0]});
-         }},
-        {"swapped 0",
-         [](PortList& l) {
-             if (l.visible.size() > 1) std::swap(l.visible[0], l.visible[1]);
-         }},
         {"reversed 0", [](PortList& l) { std::ranges::reverse(l.visible); }},
         {"as_submitted 0",
          [](PortList& l) {
