@@ -23,6 +23,7 @@
 #include "tools/oracle/judge/sample_habits.h"
 #include "tools/oracle/picture/stored_like.h"
 #include "tools/oracle/verdict/equal_picture.h"
+#include "tools/oracle/verdict/other_rules.h"
 
 namespace strata::oracle {
 

@@ -6,6 +6,7 @@
 
 #include "pipeline/device/profile.h"
 #include "rasterizer/base/input_error.h"
+#include "tools/oracle/judge/samples_verdict.h"
 #include "tools/oracle/verdict/report.h"
 
 namespace strata::oracle {
@@ -17,7 +18,7 @@ const TargetImage& colors_of(const Picture& candidate) {
     return *found;
 }
 
-bool LayersVerdict::is_right() const noexcept { return single ? single->is_right() : samples->found.is_right(); }
+bool LayersVerdict::is_right() const noexcept { return single ? single->is_right() : samples->is_right(); }
 bool LayersVerdict::is_undecided() const noexcept { return single && single->found.is_undecided(); }
 
 bool LayersVerdict::is_explained() const noexcept {
@@ -41,7 +42,7 @@ std::uint64_t LayersVerdict::lost_at_ties() const noexcept {
 }
 
 const std::vector<std::uint32_t>& LayersVerdict::wrong_colors() const noexcept {
-    return single ? single->found.right.wrong_pixels : samples->found.wrong_pixels;
+    return single ? single->found.right.wrong_pixels : samples->wrong_pixels;
 }
 
 verdict::Colors LayersVerdict::colors() const { return single ? single->formed.colors() : samples->form.colors(); }

@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "tools/oracle/judge/asked_picture.h"
-#include "tools/oracle/judge/samples_verdict.h"
 #include "tools/oracle/verdict/picture_verdict.h"
+#include "tools/oracle/verdict/resolved.h"
 
 namespace strata::oracle {
 
 struct LayersVerdict {
     std::optional<verdict::PictureVerdict> single{};  // of one sample per pixel; else:
-    std::optional<SamplesVerdict> samples{};
+    std::optional<verdict::ResolvedVerdict> samples{};
 
     [[nodiscard]] bool is_right() const noexcept;
     [[nodiscard]] bool is_undecided() const noexcept;

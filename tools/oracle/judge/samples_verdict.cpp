@@ -3,7 +3,6 @@
 #include "tools/oracle/judge/samples_verdict.h"
 
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
@@ -77,27 +76,28 @@ std::optional<ResolvedVerdict> right_samples_by(const OtherRules& rules, const p
     }
 }
 
-SamplesVerdict judge_samples(const peeling::FrameRequest& input, const PictureQuestion& question) {
-    SamplesVerdict verdict{.by = "the rules of profile " + input.profile.name};
+ResolvedVerdict judge_samples(const peeling::FrameRequest& input, const PictureQuestion& question) {
+    ResolvedVerdict verdict;
     const verdict::Samples given = samples_by({"", input.profile, input.options.raster.interpolation}, input);
     for (Formed& form : forms_of(question)) {
         ResolvedVerdict found = judge_resolved(given, form.colors());
-        if (!verdict.form.target.codes.empty() && !is_better(found, verdict.found)) continue;
-        verdict.found = std::move(found);
+        if (!verdict.form.target.codes.empty() && !is_better(found, verdict)) continue;
+        verdict = std::move(found);
         verdict.form = std::move(form);
-        if (verdict.found.is_right()) return verdict;
+        verdict.by = "the rules of profile " + input.profile.name;
+        if (verdict.is_right()) return verdict;
     }
-    const rasterizer::Rect part = verdict::most_wrong(wrong_pixels(verdict.found), question.colors.width);
+    const rasterizer::Rect part = verdict::most_wrong(wrong_pixels(verdict), question.colors.width);
     if (const std::string name = equal_algorithm(input, question, part); !name.empty()) {
-        verdict.found.equal_to = name;
-        verdict.found.wrong_pixels.clear();
-        verdict.found.wrong_at_edges = 0;
-        verdict.found.alpha.state = verdict::AlphaState::absent;
-        verdict.found.alpha.wrong_pixels.clear();
+        verdict.equal_to = name;
+        verdict.wrong_pixels.clear();
+        verdict.wrong_at_edges = 0;
+        verdict.alpha.state = verdict::AlphaState::absent;
+        verdict.alpha.wrong_pixels.clear();
         return verdict;
     }
     // Rules decide about coverage and colours: another alpha has another cause.
-    const std::vector<std::uint32_t> wrong = verdict.found.wrong_pixels;
+    const std::vector<std::uint32_t> wrong = verdict.wrong_pixels;
     if (wrong.empty()) return verdict;
     const std::vector<OtherRules> others = verdict::other_rules(input, question.more);
     for (const OtherRules& other : others) {
@@ -105,23 +105,12 @@ SamplesVerdict judge_samples(const peeling::FrameRequest& input, const PictureQu
         if (question.progress) question.progress(tried / static_cast<double>(others.size()));
         auto found = right_samples_by(other, input, verdict.form.colors(), wrong);
         if (!found) continue;
-        verdict.found = *std::move(found);
-        verdict.by = other.name;
-        verdict.description = description(other, input.profile.name, wrong.size());
-        return verdict;
+        found->form = std::move(verdict.form);
+        found->by = other.name;
+        found->description = description(other, input.profile.name, wrong.size());
+        return *std::move(found);
     }
     return verdict;
-}
-
-std::string to_text(const SamplesVerdict& verdict) {
-    return to_text(verdict.found, verdict.form.target.width) + verdict.form.description() + verdict.description;
-}
-
-nlohmann::ordered_json json_of(const SamplesVerdict& verdict) {
-    nlohmann::ordered_json document = json_of(verdict.found, verdict.form.target.width);
-    if (verdict.form.is_chosen) document["colors"] = verdict.form.use.is_divided ? "straight" : "premultiplied";
-    document["rules"] = verdict.by;
-    return document;
 }
 
 }  // namespace strata::oracle

@@ -7,13 +7,10 @@
 //          stated.
 // Tests    tests/tools/strata/compare/compare_samples_test.cpp
 #pragma once
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "peeling/frame_request.h"
-#include "tools/oracle/fragments/form.h"
 #include "tools/oracle/verdict/other_rules.h"
 #include "tools/oracle/verdict/resolved.h"
 
@@ -23,16 +20,9 @@ struct PictureQuestion;
 
 namespace strata::oracle {
 
-struct SamplesVerdict {
-    verdict::ResolvedVerdict found{};
-    verdict::Formed form{};     // of the picture's colours
-    std::string by{};           // what it was judged by: "the rules of profile llvmpipe with --origin lower-left"
-    std::string description{};  // a line of text, if it is right by other rules than those given
-};
-
 // Throws Refused if the profile lacks the number of samples.
-[[nodiscard]] SamplesVerdict judge_samples(const peeling::FrameRequest& input,
-                                           const verdict::PictureQuestion& question);
+[[nodiscard]] verdict::ResolvedVerdict judge_samples(const peeling::FrameRequest& input,
+                                                     const verdict::PictureQuestion& question);
 
 // The fragments of each sample by the rules, of a part of the picture or of all of it. Throws Refused.
 [[nodiscard]] verdict::Samples samples_by(const verdict::OtherRules& rules, const peeling::FrameRequest& input,
@@ -44,8 +34,5 @@ struct SamplesVerdict {
                                                                        const peeling::FrameRequest& input,
                                                                        const verdict::Colors& candidate,
                                                                        const std::vector<std::uint32_t>& wrong);
-
-[[nodiscard]] std::string to_text(const SamplesVerdict& verdict);
-[[nodiscard]] nlohmann::ordered_json json_of(const SamplesVerdict& verdict);
 
 }  // namespace strata::oracle

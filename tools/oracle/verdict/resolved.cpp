@@ -250,7 +250,7 @@ std::optional<SamplesAccount> closest(const std::vector<Hypothesis>& all, const 
 
 ResolvedVerdict checked(const SamplesAccount& account, const Colors& candidate,
                         const std::vector<ResolvedPixel>& pixels, StackMaker& maker) {
-    ResolvedVerdict verdict{.hypothesis = account.hypothesis, .pixels = pixels.size()};
+    ResolvedVerdict verdict{.hypothesis = account.hypothesis, .width = candidate.width(), .pixels = pixels.size()};
     const SampleMean resolve{account.hypothesis, candidate};
     for (const ResolvedPixel& pixel : pixels) {
         if (pixel.lists.empty()) continue;
@@ -344,18 +344,31 @@ const std::vector<std::uint32_t>& wrong_pixels(const ResolvedVerdict& v) {
     return v.wrong_pixels.empty() ? v.alpha.wrong_pixels : v.wrong_pixels;
 }
 
-std::string to_text(const ResolvedVerdict& v, int width) {
-    std::string text = first_line(v) + '\n';
+namespace {
+
+// At most some of the wrong pixels.
+std::vector<std::array<std::uint32_t, 2>> first_wrong(const ResolvedVerdict& v, std::size_t most) {
     const std::vector<std::uint32_t>& wrong = oracle::verdict::wrong_pixels(v);
-    if (!v.equal_to.empty()) return text;
-    text += fmt::format("  {}{}\n", v.wrong_pixels.empty() ? "" : "closest: ", describe(v.hypothesis));
-    if (v.is_right() && v.alpha.is_told) text += fmt::format("  {}\n", describe(v.alpha));
-    if (wrong.empty()) return text;
-    const auto columns = static_cast<std::uint32_t>(width);
-    return text + fmt::format("  the first wrong pixel is {},{}\n", wrong[0] % columns, wrong[0] / columns);
+    const auto columns = static_cast<std::uint32_t>(v.width);
+    std::vector<std::array<std::uint32_t, 2>> first;
+    for (std::size_t i = 0; i < std::min(most, wrong.size()); ++i)
+        first.push_back({wrong[i] % columns, wrong[i] / columns});
+    return first;
 }
 
-nlohmann::ordered_json json_of(const ResolvedVerdict& v, int width) {
+}  // namespace
+
+std::string to_text(const ResolvedVerdict& v) {
+    std::string text = first_line(v) + '\n';
+    if (v.equal_to.empty()) {
+        text += fmt::format("  {}{}\n", v.wrong_pixels.empty() ? "" : "closest: ", describe(v.hypothesis));
+        if (v.is_right() && v.alpha.is_told) text += fmt::format("  {}\n", describe(v.alpha));
+        for (const auto& [x, y] : first_wrong(v, 1)) text += fmt::format("  the first wrong pixel is {},{}\n", x, y);
+    }
+    return text + v.form.description() + v.description;
+}
+
+nlohmann::ordered_json json_of(const ResolvedVerdict& v) {
     nlohmann::ordered_json document{{"verdict", v.is_right() ? "right" : "wrong"},
                                     {"sentence", first_line(v)},
                                     {"pixels", v.pixels},
@@ -366,11 +379,9 @@ nlohmann::ordered_json json_of(const ResolvedVerdict& v, int width) {
                                     {"possible", v.possible},
                                     {"alpha", name(v.alpha.state)},
                                     {"wrong_alpha", v.alpha.wrong_pixels.size()},
-                                    {"first_wrong", nlohmann::ordered_json::array()}};
-    const auto columns = static_cast<std::uint32_t>(width);
-    const std::vector<std::uint32_t>& wrong = oracle::verdict::wrong_pixels(v);
-    for (std::size_t i = 0; i < std::min<std::size_t>(16, wrong.size()); ++i)
-        document["first_wrong"].push_back({wrong[i] % columns, wrong[i] / columns});
+                                    {"first_wrong", first_wrong(v, 16)}};
+    if (v.form.is_chosen) document["colors"] = v.form.use.is_divided ? "straight" : "premultiplied";
+    document["rules"] = v.by;
     return document;
 }
 

@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 
+#include "tools/oracle/fragments/form.h"
 #include "tools/oracle/fragments/sample.h"
 #include "tools/oracle/rounding/hypothesis.h"
 #include "tools/oracle/search/alpha.h"
@@ -22,12 +23,17 @@ namespace strata::oracle::verdict {
 
 struct ResolvedVerdict {
     Hypothesis hypothesis{};  // of the samples; the one with the fewest wrong pixels, then with the narrowest intervals
+    int width = 0;            // of the picture
     std::uint64_t pixels = 0, at_edges = 0;     // at_edges: pixels whose samples have different fragments
     std::vector<std::uint32_t> wrong_pixels{};  // row-major, ascending
     std::uint64_t wrong_at_edges = 0;
     double possible = 0;     // the widest interval, in codes of the picture (floats: 1/255)
     AlphaChecked alpha{};    // no mistake is named
     std::string equal_to{};  // the algorithm whose picture this is; "": none, or not asked
+    // Of judge_samples (judge/samples_verdict.h), empty else: how the picture was read, what it was judged by ("the
+    // rules of profile llvmpipe with --origin lower-left"), and a line of text if these are others than those given.
+    Formed form{};
+    std::string by{}, description{};
     [[nodiscard]] bool is_right() const noexcept { return wrong_pixels.empty() && alpha.state != AlphaState::wrong; }
 };
 
@@ -44,7 +50,7 @@ using Samples = std::vector<std::unique_ptr<SceneFragments>>;
 // The pixels that are wrong, by their colours or else by their alpha.
 [[nodiscard]] const std::vector<std::uint32_t>& wrong_pixels(const ResolvedVerdict& verdict);
 
-[[nodiscard]] std::string to_text(const ResolvedVerdict& verdict, int width);
-[[nodiscard]] nlohmann::ordered_json json_of(const ResolvedVerdict& verdict, int width);
+[[nodiscard]] std::string to_text(const ResolvedVerdict& verdict);
+[[nodiscard]] nlohmann::ordered_json json_of(const ResolvedVerdict& verdict);
 
 }  // namespace strata::oracle::verdict

@@ -187,17 +187,17 @@ ShownVerdict shown(const oracle::verdict::PictureVerdict& verdict, const pipelin
     return shown;
 }
 
-ShownVerdict shown(const oracle::SamplesVerdict& verdict) {
+ShownVerdict shown(const oracle::verdict::ResolvedVerdict& verdict) {
     EditMap map{.width = verdict.form.target.width, .height = verdict.form.target.height};
     map.of_pixel.assign(verdict.form.target.pixels(), EditMap::right);
     const auto mark = [&map](const std::vector<std::uint32_t>& pixels, std::uint8_t as) {
         for (const std::uint32_t pixel : pixels) map.of_pixel[pixel] = as;
     };
-    mark(verdict.found.wrong_pixels, EditMap::unexplained);
-    mark(verdict.found.alpha.wrong_pixels, EditMap::wrong_alpha);
+    mark(verdict.wrong_pixels, EditMap::unexplained);
+    mark(verdict.alpha.wrong_pixels, EditMap::wrong_alpha);
     return {.map = drawn(map),
-            .map_caption = verdict.found.is_right() ? "Wrong pixels: none, so all of it is black"
-                                                    : "Wrong pixels: pink, or grey if alpha alone is wrong"};
+            .map_caption = verdict.is_right() ? "Wrong pixels: none, so all of it is black"
+                                              : "Wrong pixels: pink, or grey if alpha alone is wrong"};
 }
 
 ShownVerdict shown(const oracle::Judgement& judgement, const pipeline::DrawList& list) {

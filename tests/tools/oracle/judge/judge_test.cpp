@@ -64,6 +64,7 @@ TEST_CASE("the judge names a single emulated mistake with little effort and with
         const auto document = nlohmann::ordered_json::parse(found.json);
         CHECK(document["sentence"] == wanted);
         CHECK(document.contains("leads"));
+        CHECK(document.contains("structure") == (effort == Effort::all));
     }
 }
 

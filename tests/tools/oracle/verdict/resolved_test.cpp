@@ -48,7 +48,7 @@ TEST_CASE("the mean of right samples is right in each format and by each end of 
         for (const pipeline::Format format :
              {pipeline::Format::rgba8, pipeline::Format::rgba16f, pipeline::Format::rgba32f}) {
             const ResolvedVerdict verdict = judged_samples(opened, resolved(opened, algorithm, format));
-            INFO(algorithm << ' ' << pipeline::info(format).name << ": " << to_text(verdict, 48));
+            INFO(algorithm << ' ' << pipeline::info(format).name << ": " << to_text(verdict));
             CHECK(verdict.is_right());
             CHECK(verdict.pixels == 48 * 36);
             CHECK(verdict.at_edges > 50);
@@ -65,7 +65,7 @@ TEST_CASE("the mean of right samples is right where a profile interpolates beyon
         for (const std::string algorithm : {"front_to_back", "dual"}) {
             for (const pipeline::Format format : {pipeline::Format::rgba8, pipeline::Format::rgba32f}) {
                 const ResolvedVerdict verdict = judged_samples(opened, resolved(opened, algorithm, format));
-                INFO(scene << ' ' << algorithm << ": " << to_text(verdict, 48));
+                INFO(scene << ' ' << algorithm << ": " << to_text(verdict));
                 CHECK(verdict.is_right());
             }
         }
@@ -76,7 +76,7 @@ TEST_CASE("a port with one sample per pixel is wrong at edges only and one that 
     const OpenedScene opened{"planes:count=3", 48, 36};  // of one colour each
     const ResolvedVerdict single = judged_samples(opened, *opened.picture("front_to_back", pipeline::Format::rgba8));
     CHECK_FALSE(single.is_right());
-    CHECK(to_text(single, 48).find(", edges only: ") != std::string::npos);
+    CHECK(to_text(single).find(", edges only: ") != std::string::npos);
     const OpenedScene deep{"showroom", 48, 36};
     const ResolvedVerdict early = judged_samples(deep, resolved(deep, "front_to_back", pipeline::Format::rgba8, 1));
     CHECK_FALSE(early.is_right());
