@@ -161,6 +161,7 @@ class Judge {
         if (!algorithm_.exact && is_habit_of(fitted, fragments, verdict::Colors{colors_of(own_as_stored())}))
             return false;
         found_.state = JudgedState::explained;
+        found_.forgotten.clear();
         found_.mistakes = fitted.mistakes();
         found_.sentence = "wrong: " + found_.mistakes[0];
         fitted_ = std::move(fitted);

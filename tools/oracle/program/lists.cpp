@@ -147,7 +147,7 @@ ListFragment list_fragment(const verdict::Fragment& f, std::span<const verdict::
             .is_front_facing = f.is_front_facing};
 }
 
-void complete(Lists& lists) {
+void complete(Lists& lists, EqualCodes equal) {
     for (std::size_t i = 0; i < lists.pixels.size(); ++i) {
         const std::size_t first = lists.pixels[i].first;
         const std::size_t end = i + 1 < lists.pixels.size() ? lists.pixels[i + 1].first : lists.fragments.size();
@@ -155,7 +155,8 @@ void complete(Lists& lists) {
     }
     settle_background(lists);
     set_triangle_depths(lists);
-    for (ListPixel& pixel : lists.pixels) find_ties(pixel);
+    if (equal == EqualCodes::open)
+        for (ListPixel& pixel : lists.pixels) find_ties(pixel);
 }
 
 Lists lists_of(const verdict::SceneFragments& scene, const verdict::Colors& candidate, bool has_all_pixels) {

@@ -75,8 +75,10 @@ struct Lists {
 // A fragment among those of its pixel.
 [[nodiscard]] ListFragment list_fragment(const verdict::Fragment& fragment, std::span<const verdict::Fragment> of);
 
-// Sets the spans of the pixels, whose `first` are known, the triangles' depths, and the lists with equal codes
-// reversed.
-void complete(Lists& lists);
+enum class EqualCodes : std::uint8_t { open, given };
+
+// Sets the spans of the pixels, whose `first` are known, the triangles' depths, and, if the order of equal codes is
+// open, the lists with other ones.
+void complete(Lists& lists, EqualCodes equal = EqualCodes::open);
 
 }  // namespace strata::oracle::program

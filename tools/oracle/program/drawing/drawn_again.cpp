@@ -7,6 +7,7 @@
 #include "tools/oracle/fragments/fragments.h"
 #include "tools/oracle/fragments/sample.h"
 #include "tools/oracle/program/drawing/fit_drawings.h"
+#include "tools/oracle/program/drawing/lookups.h"
 
 namespace strata::oracle::program {
 
@@ -93,6 +94,8 @@ void add_viewports(const peeling::FrameRequest& input, const verdict::Colors& ca
 std::vector<OtherLists> other_drawings(const peeling::FrameRequest& input, const Lists& given,
                                        const verdict::Colors& candidate) {
     std::vector<OtherLists> all = other_opaque_passes(surfaces_of(input, given));
+    for (auto* others : {other_peels, other_lookups})
+        for (OtherLists& other : others(given)) all.push_back(std::move(other));
     add_grids(input, candidate, all);
     add_premultiplied_texels(input, candidate, all);
     add_viewports(input, candidate, all);

@@ -24,6 +24,8 @@ std::vector<Proof> told(const std::vector<ProvedDrawing>& whole) {
     std::vector<Proof> all;
     for (ProvedDrawing& d : some) {
         if (all.size() == most_told) break;
+        if (std::ranges::any_of(all, [&](const Proof& p) { return describe(p.program) == describe(d.proof.program); }))
+            continue;
         d.proof.is_equal = all.empty() || predict_alike({some[0].other->lists, some[0].proof.program},
                                                         {d.other->lists, d.proof.program});
         all.push_back(std::move(d.proof));

@@ -40,8 +40,10 @@ Proof prove(const Lists& lists, const Program& program, const Fitness& right, co
     const Fitness& f = proof.fitness;
     proof.cost = f.bits + price(program);
     const double most = std::max(2.0, 0.002 * static_cast<double>(f.covered));
-    proof.is_whole = static_cast<double>(f.beyond) <= most && f.mean < 1 && f.slope < 0.35 &&
-                     f.bits_per_covered() < 1.5 && proof.cost < 0.6 * right.bits;
+    // Where many layers are blended, rounding alone costs more.
+    const bool is_cheap = f.bits_per_covered() < 1.5 || (is_narrow(f) && proof.cost < 0.1 * right.bits);
+    proof.is_whole = static_cast<double>(f.beyond) <= most && f.mean < 1 && f.slope < 0.35 && is_cheap &&
+                     proof.cost < 0.6 * right.bits;
     // A free fit of several parameters comes near to anything: it explains only by round numbers.
     const bool is_loose = std::ranges::any_of(program.edits, [&](const Edit& edit) {
         if (edit.entry->start == nullptr) return false;
