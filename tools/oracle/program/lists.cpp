@@ -147,7 +147,7 @@ ListFragment list_fragment(const verdict::Fragment& f, std::span<const verdict::
             .is_front_facing = f.is_front_facing};
 }
 
-void complete(Lists& lists, EqualCodes equal) {
+void complete(Lists& lists, bool is_tied) {
     for (std::size_t i = 0; i < lists.pixels.size(); ++i) {
         const std::size_t first = lists.pixels[i].first;
         const std::size_t end = i + 1 < lists.pixels.size() ? lists.pixels[i + 1].first : lists.fragments.size();
@@ -155,7 +155,7 @@ void complete(Lists& lists, EqualCodes equal) {
     }
     settle_background(lists);
     set_triangle_depths(lists);
-    if (equal == EqualCodes::open)
+    if (is_tied)
         for (ListPixel& pixel : lists.pixels) find_ties(pixel);
 }
 

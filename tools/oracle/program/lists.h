@@ -75,10 +75,8 @@ struct Lists {
 // A fragment among those of its pixel.
 [[nodiscard]] ListFragment list_fragment(const verdict::Fragment& fragment, std::span<const verdict::Fragment> of);
 
-enum class EqualCodes : std::uint8_t { open, given };
-
 // Sets the spans of the pixels, whose `first` are known, the triangles' depths, and, if the order of equal codes is
-// open, the lists with other ones.
-void complete(Lists& lists, EqualCodes equal = EqualCodes::open);
+// open (`is_tied`), the lists with other ones.
+void complete(Lists& lists, bool is_tied = true);
 
 }  // namespace strata::oracle::program

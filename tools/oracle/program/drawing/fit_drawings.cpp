@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/oracle/program/fit/pairs.h"
+
 namespace strata::oracle::program {
 
 namespace {
@@ -51,6 +53,14 @@ Fitting fit_drawings(const Lists& given, const std::vector<OtherLists>& others) 
         else if (proof.is_part)
             part.push_back({&other, std::move(proof)});
     }
+    if (whole.empty())
+        for (const OtherLists& other : others)
+            for (Program& program : plain_programs(other.lists, 1)) {
+                program.drawing = other.words;
+                program.drawing_price = other.price;
+                Proof proof = prove(other.lists, program, fitting.right, &given);
+                if (proof.is_whole) whole.push_back({&other, std::move(proof)});
+            }
     if (whole.empty() && !cheaper.empty()) {
         const ProvedDrawing& base = std::ranges::min(cheaper, {}, [](const ProvedDrawing& d) { return d.proof.cost; });
         for (Proof& proof : with_one_more(base.other->lists, base.proof, fitting.right))

@@ -2,8 +2,8 @@
 // opaque pass, or on another grid of positions?
 //
 // Rule     The right program runs on the lists of each other drawing, and is proved as any program is (prove.h), on all
-//          pixels, those at edges too. Where none explains the picture, but one costs less than 0.8 of the right
-//          drawing, one more edit is searched on its lists.
+//          pixels, those at edges too. Where none explains the picture, one plain edit (pairs.h) is tried on each
+//          of them; and where one costs less than 0.8 of the right drawing, one more edit is searched on its lists.
 // Tests    tests/tools/oracle/program/drawing_test.cpp
 #pragma once
 #include "tools/oracle/program/drawing/opaque_pass.h"

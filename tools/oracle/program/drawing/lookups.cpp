@@ -181,7 +181,7 @@ Lists read_by(const PixelPlaces& places, const Lookup& lookup, const ReadLayers&
             }
         }
     }
-    complete(made, EqualCodes::given);
+    complete(made, false);
     return made;
 }
 

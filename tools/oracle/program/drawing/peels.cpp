@@ -100,7 +100,7 @@ class PeelRun {
             if (peel_.is_from_back) std::ranges::reverse(found);
             for (const std::size_t k : found) made.fragments.push_back(pixel.fragments[k]);
         }
-        complete(made, EqualCodes::given);
+        complete(made, false);
         return made;
     }
 

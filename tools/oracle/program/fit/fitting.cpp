@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/oracle/program/fit/pairs.h"
+
 namespace strata::oracle::program {
 
 namespace {
@@ -89,6 +91,14 @@ std::vector<Proof> with_one_more(const Lists& lists, const Proof& base, const Fi
 
 namespace {
 
+// Two plain edits.
+std::vector<Proof> proved_pairs(const Lists& lists, const Fitness& right) {
+    std::vector<Proof> proofs;
+    for (const Program& pair : plain_programs(lists, 2))
+        if (is_plain_pair(pair)) proofs.push_back(prove(lists, pair, right));
+    return only(std::move(proofs), &Proof::is_whole);
+}
+
 // Right, and described in few bits: nothing else is asked.
 bool is_plainly_right(const Fitness& right) { return is_narrow(right) && right.bits_per_covered() <= 1.2; }
 
@@ -107,8 +117,12 @@ Fitting fitted(const Lists& lists) {
     if (may_be_right) {
         std::erase_if(whole, [&](const Proof& p) { return p.cost > 0.12 * right.bits; });
         part.clear();
-    } else if (whole.empty() && !part.empty()) {
-        whole = with_one_more(lists, std::ranges::min(part, {}, &Proof::cost), right);
+    } else if (whole.empty()) {
+        whole = proved_pairs(lists, right);
+        constexpr double some = 0.8;  // of the cost of the right program: worth a search on top
+        const std::vector<Proof> bases = alike(lists, std::move(proofs));
+        if (whole.empty() && !bases.empty() && bases[0].cost < some * right.bits)
+            whole = with_one_more(lists, bases[0], right);
     }
     if (!whole.empty()) {
         fitting.state = State::explained;

@@ -201,6 +201,22 @@ Closest closest_of(const FitSample& sample, const std::vector<Emulation>& emulat
     return closest;
 }
 
+// Other entries, with the conditions of the best trial, that cost as little: one of them may be plainer.
+void add_alike(const FitSample& sample, const std::vector<Emulation>& emulations, Beam& beam) {
+    if (beam.trials().empty()) return;
+    const Edit best = beam.trials()[0].edit;
+    const double least = sample.score(best).bits;
+    for (const Variation& v : variations()) {
+        if (v.entry->step != PortStep::list &&
+            !std::ranges::all_of(best.conditions, [](const Condition& c) { return c.property->is_of_pixel; }))
+            continue;
+        Trial trial{.edit = {v.entry, v.parameters, best.conditions}};
+        if (sample.score(trial.edit).bits > 1.02 * least + 10) continue;
+        trial.cost = closest_of(sample, emulations, trial.edit).cost;
+        beam.add(std::move(trial));
+    }
+}
+
 }  // namespace
 
 std::vector<Trial> search(const Lists& lists, const Program& base, const PortRounding& rounding) {
@@ -220,6 +236,7 @@ std::vector<Trial> search(const Lists& lists, const Program& base, const PortRou
         drop_conditions(scorer, trial);
         beam.add(std::move(trial));
     }
+    add_alike(many, emulations, beam);
     const auto [nearest, farthest] = many.depths();
     for (const StepEntry* entry : entries()) {
         if (entry->start == nullptr) continue;

@@ -56,6 +56,19 @@ void wrap(Front& f, const PortLayer& layer, std::size_t, Parameters) {
     }
     f.through *= 1 - layer.cover;
 }
+// The layer is attenuated rightly; what is behind it by another transmittance.
+template <auto next>
+void reach(Front& f, const PortLayer& layer, std::size_t k, Parameters p) {
+    const double through = next(f.through, layer.cover);
+    usual(f, layer, k, p);
+    f.through = through;
+}
+double less_alpha(double t, double a) { return std::max(t - a, 0.0); }
+double least(double t, double a) { return std::min(t, 1 - a); }
+double of_last(double, double a) { return 1 - a; }
+double of_first(double t, double a) { return t < 1 ? t : 1 - a; }
+double like_color(double t, double a) { return 1 - (a * a + (1 - a) * (1 - t)); }
+double of_square(double t, double a) { return t * (1 - a * a); }
 double squared(double through, Parameters) { return through * through; }
 double inverted(double through, Parameters) { return 1 - through; }
 double unweighted(double, Parameters) { return 1; }
@@ -91,6 +104,23 @@ double multiply(double d, double s, double a) { return d * (1 - a + a * s); }
 double screen(double d, double s, double a) { return 1 - (1 - d) * (1 - a * s); }
 double difference(double d, double s, double a) { return std::fabs(s * a - d * (1 - a)); }
 double in_light(double d, double s, double a) { return encoded(decoded(d) * (1 - a) + decoded(s) * a); }
+
+// Back to front in codes of 8 bits that are not clamped.
+Color wrapped(Stack layers, const Color& behind, const PortRounding& r, Parameters) {
+    const auto code = [](double v) { return std::floor(v * 255 + 0.5); };
+    const auto cut = [](double v) { return std::floor(v * 255 + 1e-9); };
+    Color below = behind;
+    for (std::size_t k = layers.size(); k-- > 0;)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double own = layers[k].color[c] * layers[k].alpha, rest = below[c] * (1 - layers[k].cover);
+            const double sum = r.splits                    ? code(own) + code(rest)
+                               : !r.truncates              ? code(own + rest)
+                               : r.form == BlendForm::once ? cut(own + rest)
+                                                           : code(own) + cut(rest);
+            below[c] = (sum - 256 * std::floor(sum / 256)) / 255;
+        }
+    return below;
+}
 
 // The transmittance of all layers.
 double transmittance(Stack layers) {
@@ -207,6 +237,33 @@ const StepEntry table[] = {
      .words = "the transmittance is reduced by subtraction of alpha",
      .price = 5,
      .fold = from_front<subtract>},
+    {.step = PortStep::fold,
+     .words = "the alphas of the layers before are added up, where their transmittances are multiplied",
+     .fold = from_front<reach<less_alpha>>},
+    {.step = PortStep::fold,
+     .words = "the alpha reached is the largest one",
+     .price = 5,
+     .fold = from_front<reach<least>>},
+    {.step = PortStep::fold,
+     .words = "the alpha reached is that of the last layer",
+     .price = 5,
+     .fold = from_front<reach<of_last>>},
+    {.step = PortStep::fold,
+     .words = "the alpha reached is that of the first layer",
+     .price = 5,
+     .fold = from_front<reach<of_first>>},
+    {.step = PortStep::fold,
+     .words = "the alpha reached is blended by alpha",
+     .price = 5,
+     .fold = from_front<reach<like_color>>},
+    {.step = PortStep::fold,
+     .words = "layers attenuate by the square of alpha",
+     .price = 5,
+     .fold = from_front<reach<of_square>>},
+    {.step = PortStep::fold,
+     .words = "blends of 8 bits wrap around at 256 where they are to be clamped",
+     .price = 5,
+     .fold = wrapped},
     {.step = PortStep::fold, .words = "the transmittance is that of one layer earlier", .price = 5, .fold = one_late},
     {.step = PortStep::fold,
      .words = "the transmittance is kept in {} bits",

@@ -69,6 +69,40 @@ Color tail_averaged(Stack layers, const Color& behind, const PortRounding& r, Pa
     const auto first = std::min(static_cast<std::size_t>(p[0]), layers.size());
     return blended(layers.first(first), weighted<one>(layers.subspan(first), behind, r, p), r);
 }
+// The tail's average is weighted by `join` of the transmittance of the layers before it.
+template <auto join>
+Color tail_joined(Stack layers, const Color& behind, const PortRounding& r, Parameters p) {
+    const auto first = std::min(static_cast<std::size_t>(p[0]), layers.size());
+    double core = 1;
+    for (const PortLayer& layer : layers.first(first)) core *= 1 - layer.cover;
+    const LayerSums tail = sums_of<one>(layers.subspan(first), p);
+    const Color back = over(tail, tail.through, {});
+    Color color = blended(layers.first(first), {}, r);
+    for (std::size_t c = 0; c < 3; ++c) color[c] += join(core) * back[c] + core * tail.through * behind[c];
+    return color;
+}
+double unweighted(double) { return 1; }
+double squared(double core) { return core * core; }
+double inverted(double core) { return 1 - core; }
+// The sums are kept in [0, p[0]].
+template <auto weight_of>
+Color clamped(Stack layers, const Color& behind, const PortRounding&, Parameters p) {
+    LayerSums s = sums_of<weight_of>(layers, p);
+    for (double& c : s.color) c = std::min(c, p[0]);
+    s.weight = std::min(s.weight, p[0]);
+    return over(s, s.through, behind);
+}
+template <auto weight_of>
+Color undivided(Stack layers, const Color& behind, const PortRounding&, Parameters p) {
+    LayerSums s = sums_of<weight_of>(layers, p);
+    for (std::size_t c = 0; c < 3; ++c) s.color[c] = std::min(s.color[c], 1.0) + s.through * behind[c];
+    return s.color;
+}
+template <auto weight_of>
+Color by_sum_of_alphas(Stack layers, const Color& behind, const PortRounding&, Parameters p) {
+    const LayerSums s = sums_of<weight_of>(layers, p);
+    return over(s, std::max(1 - s.alpha, 0.0), behind);
+}
 
 // Weights by depth: their logarithms at eight depths from p[0] to p[1], and a power of alpha.
 double by_curve(const PortLayer& layer, Parameters p) {
@@ -84,7 +118,7 @@ std::vector<double> equal_weights(double nearest, double farthest) {
 bool fall_with_depth(Parameters p) { return std::is_sorted(p.rbegin() + 1, p.rend() - 2); }
 
 constexpr double scales[] = {0.05, 0.1, 0.3, 1}, distances[] = {0.1, 0.2, 0.5, 1, 10, 200};
-constexpr double exponents[] = {1, 2, 3, 4}, counts[] = {1, 2, 3, 4};
+constexpr double exponents[] = {1, 2, 3, 4}, counts[] = {1, 2, 3, 4, 6, 8}, sum_limits[] = {1, 4, 16};
 
 const StepEntry table[] = {
     {.step = PortStep::fold,
@@ -156,6 +190,44 @@ const StepEntry table[] = {
      .price = 6,
      .parameters = counts,
      .fold = tail_averaged},
+    {.step = PortStep::fold,
+     .words = "the average of the layers behind the first {} is not attenuated by these",
+     .price = 6,
+     .parameters = counts,
+     .fold = tail_joined<unweighted>},
+    {.step = PortStep::fold,
+     .words = "the average of the layers behind the first {} is attenuated by these twice",
+     .price = 7,
+     .parameters = counts,
+     .fold = tail_joined<squared>},
+    {.step = PortStep::fold,
+     .words = "the average of the layers behind the first {} is weighted by their alpha",
+     .price = 7,
+     .parameters = counts,
+     .fold = tail_joined<inverted>},
+    {.step = PortStep::fold,
+     .words = "weighted sums: alpha max(0.01, 3000 (1 - depth)^3), and sums are clamped to {}",
+     .price = 6,
+     .parameters = sum_limits,
+     .is_continuous = true,
+     .fold = clamped<by_depth_10>},
+    {.step = PortStep::fold,
+     .words = "layers are averaged by alpha, and sums are clamped to {}",
+     .price = 6,
+     .parameters = sum_limits,
+     .fold = clamped<one>},
+    {.step = PortStep::fold,
+     .words = "weighted sums: alpha max(0.01, 3000 (1 - depth)^3), not divided by the sum of weights",
+     .price = 6,
+     .fold = undivided<by_depth_10>},
+    {.step = PortStep::fold,
+     .words = "weighted sums: alpha max(0.01, 3000 (1 - depth)^3), the background by 1 - the sum of alphas",
+     .price = 6,
+     .fold = by_sum_of_alphas<by_depth_10>},
+    {.step = PortStep::fold,
+     .words = "layers are averaged by alpha, the background is weighted by 1 - the sum of alphas",
+     .price = 6,
+     .fold = by_sum_of_alphas<one>},
 };
 
 }  // namespace
