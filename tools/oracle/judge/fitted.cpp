@@ -11,6 +11,8 @@ namespace strata::oracle {
 
 using State = program::Fitting::State;
 
+double FittedPicture::cost() const { return screen.empty() ? fitting.found[0].cost : screen[0].cost(); }
+
 std::vector<std::string> FittedPicture::mistakes() const {
     std::vector<std::string> all;
     for (const program::ScreenMap& map : screen) all.push_back(map.words);
@@ -44,7 +46,13 @@ std::string FittedPicture::lines(std::size_t pixels) const {
 FittedPicture fitted_picture(const peeling::FrameRequest& input, const verdict::SceneFragments& fragments,
                              const verdict::Colors& colors) {
     const program::Lists all = program::lists_of(fragments, colors, true);
-    FittedPicture found{.fitting = fit_drawings(all, program::other_drawings(input, all, colors))};
+    FittedPicture found{.fitting = {.right = program::best_fitness(all, {})}};
+    if (program::is_plainly_right(found.fitting.right) && found.fitting.right.beyond == 0) {
+        found.fitting.state = State::right;
+        return found;
+    }
+    const program::Fitness right = found.fitting.right;
+    found.fitting = fit_drawings(all, program::other_drawings(input, all, colors), &right);
     const bool is_pair = found.is_explained() && !found.fitting.found[0].program.edits.empty();
     if (found.is_explained() && !is_pair) return found;
     found.screen = explain_by_screen(all, found.fitting.right);

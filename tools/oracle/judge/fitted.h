@@ -1,7 +1,8 @@
 // tools/oracle/judge/fitted.h - what fitting says of a picture: another way to draw the scene, another place of its
 // pixels, or a program of few words.
 //
-// Rule     Drawings are asked first, then places, then programs; a drawing with one more edit is told only if the other
+// Rule     A picture that rounding alone explains at every pixel, those at edges too, is right. Drawings are asked
+// first, then places, then programs; a drawing with one more edit is told only if the other
 //          two explain nothing.
 // Tests    tests/tools/oracle/program, tests/tools/library/judge_test.cpp
 #pragma once
@@ -21,6 +22,7 @@ struct FittedPicture {
     [[nodiscard]] bool is_explained() const noexcept {
         return !screen.empty() || fitting.state == program::Fitting::State::explained;
     }
+    [[nodiscard]] double cost() const;                          // of the first explanation, in bits
     [[nodiscard]] std::vector<std::string> mistakes() const;    // if it is explained; the first one is the best
     [[nodiscard]] std::vector<std::string> leads() const;       // if it is explained in part
     [[nodiscard]] std::string lines(std::size_t pixels) const;  // that follow the first sentence

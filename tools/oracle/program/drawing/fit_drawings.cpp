@@ -37,9 +37,9 @@ std::vector<Proof> told(const std::vector<ProvedDrawing>& whole) {
 
 }  // namespace
 
-Fitting fit_drawings(const Lists& given, const std::vector<OtherLists>& others) {
+Fitting fit_drawings(const Lists& given, const std::vector<OtherLists>& others, const Fitness* right) {
     using State = Fitting::State;
-    Fitting fitting{.right = best_fitness(given, {})};
+    Fitting fitting{.right = right != nullptr ? *right : best_fitness(given, {})};
     std::vector<ProvedDrawing> whole, part, cheaper;
     for (const OtherLists& other : others) {
         Program program;

@@ -11,8 +11,10 @@
 
 namespace strata::oracle::program {
 
-// `given`: the lists of the right drawing, of all pixels.
-[[nodiscard]] Fitting fit_drawings(const Lists& given, const std::vector<OtherLists>& others);
+// `given`: the lists of the right drawing, of all pixels, `right`: the fitness of the
+// right program on them, if it is known.
+[[nodiscard]] Fitting fit_drawings(const Lists& given, const std::vector<OtherLists>& others,
+                                   const Fitness* right = nullptr);
 
 // The lists of a scene in all ways of drawing that are known.
 [[nodiscard]] std::vector<OtherLists> other_drawings(const peeling::FrameRequest& input, const Lists& given,

@@ -99,9 +99,6 @@ std::vector<Proof> proved_pairs(const Lists& lists, const Fitness& right) {
     return only(std::move(proofs), &Proof::is_whole);
 }
 
-// Right, and described in few bits: nothing else is asked.
-bool is_plainly_right(const Fitness& right) { return is_narrow(right) && right.bits_per_covered() <= 1.2; }
-
 Fitting fitted(const Lists& lists) {
     using State = Fitting::State;
     Fitting fitting{.right = best_fitness(lists, {})};

@@ -55,5 +55,9 @@ struct Fitness {
 
 // True if rounding alone explains what is left.
 [[nodiscard]] bool is_narrow(const Fitness& fitness) noexcept;
+// The same in few bits: nothing else is asked.
+[[nodiscard]] inline bool is_plainly_right(const Fitness& right) noexcept {
+    return is_narrow(right) && right.bits_per_covered() <= 1.2;
+}
 
 }  // namespace strata::oracle::program
