@@ -93,6 +93,17 @@ TEST_CASE("what became of the place of pixels is named") {
          [](const At& at, int x, int y) { return mean_of(at, x, y, 2, 2); }},
         {"every pixel is the mean of 3 x 3 pixels: a blur",
          [](const At& at, int x, int y) { return mean_of(at, x - 1, y - 1, 3, 3); }},
+        {"the picture is rounded to 5, 6 and 5 bits with a dither of 2 x 2 pixels",
+         [](const At& at, int x, int y) {
+             const int order[] = {0, 2, 3, 1}, bits[] = {5, 6, 5};
+             PortColor color = at(x, y);
+             for (std::size_t c = 0; c < 3; ++c) {
+                 const double threshold = (order[y % 2 * 2 + x % 2] + 0.5) / 4;
+                 const int code = static_cast<int>(color[c] * ((1 << bits[c]) - 1) + threshold);
+                 color[c] = (code << (8 - bits[c]) | code >> (2 * bits[c] - 8)) / 255.0;
+             }
+             return color;
+         }},
         {"the picture is rounded to 5 bits with a dither of 4 x 4 pixels",
          [](const At& at, int x, int y) {
              const int order[] = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};

@@ -96,6 +96,7 @@ std::vector<OtherLists> other_drawings(const peeling::FrameRequest& input, const
     std::vector<OtherLists> all = other_opaque_passes(surfaces_of(input, given));
     for (auto* others : {other_peels, other_lookups})
         for (OtherLists& other : others(given)) all.push_back(std::move(other));
+    for (OtherLists& other : other_colors(input, given, candidate)) all.push_back(std::move(other));
     add_grids(input, candidate, all);
     add_premultiplied_texels(input, candidate, all);
     add_viewports(input, candidate, all);

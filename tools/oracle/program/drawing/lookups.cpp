@@ -108,21 +108,40 @@ std::vector<OtherLists> CheapLists::best() && {
 
 namespace {
 
-// Which layers are read elsewhere.
-struct ReadLayers {
-    std::string_view words{};
-    double price = 0;
-    bool (*has)(std::size_t rank) = nullptr;
-    bool has_behind = false;
+const LayerChoice choices[] = {
+    {"all layers", 2, false, [](const ListPixel&, std::size_t) { return true; }},
+    {"the nearest layer", 3, true, [](const ListPixel&, std::size_t k) { return k == 0; }},
+    {"all layers but the nearest", 3, false, [](const ListPixel&, std::size_t k) { return k > 0; }},
+    {"the farthest layer", 4, true, [](const ListPixel& p, std::size_t k) { return k + 1 == p.fragments.size(); }},
+    {"all layers but the farthest", 4, false,
+     [](const ListPixel& p, std::size_t k) { return k + 1 < p.fragments.size(); }},
+    {"every second layer, from the second on,", 4, true, [](const ListPixel&, std::size_t k) { return k % 2 == 1; }},
+    {"every second layer, from the nearest on,", 4, true, [](const ListPixel&, std::size_t k) { return k % 2 == 0; }},
 };
-const ReadLayers read_layers[] = {
-    {"all layers", 2, [](std::size_t) { return true; }},
-    {"the nearest layer", 3, [](std::size_t k) { return k == 0; }},
-    {"all layers but the nearest", 3, [](std::size_t k) { return k > 0; }},
-    {"every second layer, from the second on,", 4, [](std::size_t k) { return k % 2 == 1; }},
-    {"every second layer, from the nearest on,", 4, [](std::size_t k) { return k % 2 == 0; }},
-    {"what is behind the layers", 4, [](std::size_t) { return false; }, true},
-};
+
+}  // namespace
+
+std::span<const LayerChoice> layer_choices() { return choices; }
+
+Lists empty_like(const Lists& given) {
+    Lists made;
+    made.width = given.width;
+    made.height = given.height;
+    made.format = given.format;
+    return made;
+}
+
+ListPixel& add_like(const ListPixel& pixel, Lists& made) {
+    return made.pixels.emplace_back(ListPixel{.x = pixel.x,
+                                              .y = pixel.y,
+                                              .first = made.fragments.size(),
+                                              .behind = pixel.behind,
+                                              .has_opaque = pixel.has_opaque,
+                                              .opaque_code = pixel.opaque_code,
+                                              .seen = pixel.seen});
+}
+
+namespace {
 
 // The layer of a rank, as it is read; alpha 0 if there is none.
 ListFragment layer_at(const PixelPlaces& places, const std::vector<std::size_t>& read, double weight,
@@ -148,25 +167,17 @@ ListFragment layer_at(const PixelPlaces& places, const std::vector<std::size_t>&
     return made;
 }
 
-Lists read_by(const PixelPlaces& places, const Lookup& lookup, const ReadLayers& layers, std::size_t step) {
+// Without a choice what is behind the layers is read.
+Lists read_by(const PixelPlaces& places, const Lookup& lookup, const LayerChoice* choice, std::size_t step) {
     const Lists& given = places.lists();
-    Lists made;
-    made.width = given.width;
-    made.height = given.height;
-    made.format = given.format;
+    Lists made = empty_like(given);
     const double weight = PixelPlaces::weight(lookup);
     std::vector<std::size_t> read;
     for (std::size_t i = 0; i < given.pixels.size(); i += step) {
         const ListPixel& pixel = given.pixels[i];
         places.read(lookup, pixel, read);
-        ListPixel& to = made.pixels.emplace_back(ListPixel{.x = pixel.x,
-                                                           .y = pixel.y,
-                                                           .first = made.fragments.size(),
-                                                           .behind = pixel.behind,
-                                                           .has_opaque = pixel.has_opaque,
-                                                           .opaque_code = pixel.opaque_code,
-                                                           .seen = pixel.seen});
-        if (layers.has_behind && !read.empty()) {
+        ListPixel& to = add_like(pixel, made);
+        if (choice == nullptr && !read.empty()) {
             to.behind = {};
             for (const std::size_t j : read)
                 for (std::size_t c = 0; c < 3; ++c) to.behind[c] += weight * given.pixels[j].behind[c];
@@ -174,7 +185,7 @@ Lists read_by(const PixelPlaces& places, const Lookup& lookup, const ReadLayers&
         std::size_t most = pixel.fragments.size();
         for (const std::size_t j : read) most = std::max(most, given.pixels[j].fragments.size());
         for (std::size_t k = 0; k < most; ++k) {
-            if (!layers.has(k)) {
+            if (choice == nullptr || !choice->has(pixel, k)) {
                 if (k < pixel.fragments.size()) made.fragments.push_back(pixel.fragments[k]);
             } else if (const ListFragment f = layer_at(places, read, weight, k); f.alpha > 0) {
                 made.fragments.push_back(f);
@@ -190,21 +201,19 @@ Lists read_by(const PixelPlaces& places, const Lookup& lookup, const ReadLayers&
 std::vector<OtherLists> other_lookups(const Lists& given) {
     CheapLists cheap{given};
     const PixelPlaces places{given};
-    for (const Lookup& lookup : lookups())
-        for (const ReadLayers& layers : read_layers) {
-            const bool is_one = layers.words.find("what") == 0 ||
-                                layers.words.find("nearest layer") != std::string::npos ||
-                                layers.words.find("every") == 0;
-            const std::string words = fmt::format("{} {} read {}", layers.words, is_one ? "is" : "are", lookup.words);
-            for (const bool clamps : {true, false}) {
-                Lookup place = lookup;
-                place.clamps = clamps;
-                if (!cheap.add(words, layers.price + lookup.price,
-                               [&](std::size_t step) { return read_by(places, place, layers, step); }))
-                    break;
-                if (!lookup.moves()) break;
-            }
-        }
+    const auto ask = [&](const Lookup& lookup, const LayerChoice* choice, const std::string& words, double price) {
+        Lookup place = lookup;
+        const auto make = [&](std::size_t step) { return read_by(places, place, choice, step); };
+        if (!cheap.add(words, price + lookup.price, make) || !lookup.moves()) return;
+        place.clamps = false;
+        cheap.add(words, price + lookup.price, make);
+    };
+    for (const Lookup& lookup : lookups()) {
+        for (const LayerChoice& choice : layer_choices())
+            ask(lookup, &choice, fmt::format("{} {} read {}", choice.words, choice.is_one ? "is" : "are", lookup.words),
+                choice.price);
+        ask(lookup, nullptr, fmt::format("what is behind the layers is read {}", lookup.words), 4);
+    }
     return std::move(cheap).best();
 }
 

@@ -23,6 +23,18 @@ struct Lookup {
 };
 [[nodiscard]] const std::vector<Lookup>& lookups();
 
+// Some layers of every pixel.
+struct LayerChoice {
+    std::string_view words{};
+    double price = 0;
+    bool is_one = false;  // "is", not "are"
+    bool (*has)(const ListPixel& pixel, std::size_t rank) = nullptr;
+};
+[[nodiscard]] std::span<const LayerChoice> layer_choices();
+[[nodiscard]] Lists empty_like(const Lists& given);
+// A pixel without fragments, to which the next fragments of `made` belong.
+ListPixel& add_like(const ListPixel& pixel, Lists& made);
+
 // The pixels of lists by their place.
 class PixelPlaces {
   public:
@@ -67,6 +79,9 @@ class CheapLists {
 
 // Textures of layers that are read at other places.
 [[nodiscard]] std::vector<OtherLists> other_lookups(const Lists& given);
+// Layers with colours that the scene has without fog, without light, without textures, or on the other side.
+[[nodiscard]] std::vector<OtherLists> other_colors(const peeling::FrameRequest& input, const Lists& given,
+                                                   const verdict::Colors& candidate);
 // Peels that compare with another depth than that of the layer before.
 [[nodiscard]] std::vector<OtherLists> other_peels(const Lists& given);
 

@@ -83,19 +83,10 @@ class PeelRun {
             const std::vector<double>& read = depths_[(pass + 1) % depths_.size()];
             for (std::size_t i = 0; i < given.pixels.size(); i += step_) written[i] = find(i, read);
         }
-        Lists made;
-        made.width = given.width;
-        made.height = given.height;
-        made.format = given.format;
+        Lists made = empty_like(given);
         for (std::size_t i = 0; i < given.pixels.size(); i += shown_) {
             const ListPixel& pixel = given.pixels[i];
-            made.pixels.push_back({.x = pixel.x,
-                                   .y = pixel.y,
-                                   .first = made.fragments.size(),
-                                   .behind = pixel.behind,
-                                   .has_opaque = pixel.has_opaque,
-                                   .opaque_code = pixel.opaque_code,
-                                   .seen = pixel.seen});
+            add_like(pixel, made);
             std::vector<std::size_t>& found = found_[i];
             if (peel_.is_from_back) std::ranges::reverse(found);
             for (const std::size_t k : found) made.fragments.push_back(pixel.fragments[k]);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -12,15 +13,15 @@ namespace strata::oracle::program {
 
 namespace {
 
-// For each place of a period its threshold: codes are floor(v + threshold).
-std::optional<std::vector<double>> thresholds_of(const ScreenPictures& p, int period, double codes) {
+// For each place of a period its threshold: codes are floor(v + threshold). `codes`: of each channel.
+std::optional<std::vector<double>> thresholds_of(const ScreenPictures& p, int period, const Color& codes) {
     const auto classes = static_cast<std::size_t>(period * period);
     std::vector<std::vector<double>> least(classes), most(classes);
     for (const ListPixel& pixel : p.lists.pixels) {
         const Color& predicted = p.at(pixel.x, pixel.y);
         const auto at = static_cast<std::size_t>(pixel.y % period * period + pixel.x % period);
         for (std::size_t c = 0; c < 3; ++c) {
-            const double code = std::nearbyint(pixel.seen[c] * codes), v = predicted[c] * codes;
+            const double code = std::nearbyint(pixel.seen[c] * codes[c]), v = predicted[c] * codes[c];
             least[at].push_back(code - v);     // threshold is at least this
             most[at].push_back(code + 1 - v);  // and below this
         }
@@ -40,19 +41,20 @@ std::optional<std::vector<double>> thresholds_of(const ScreenPictures& p, int pe
 
 struct Dither {
     int period = 0;
-    double codes = 0;
+    Color codes{};
     std::vector<double> thresholds{};
     std::size_t misses = 0;  // values that another code is seen for
 
-    [[nodiscard]] double code_of(const ListPixel& pixel, double v) const {
-        return v * codes + thresholds[static_cast<std::size_t>(pixel.y % period * period + pixel.x % period)];
+    [[nodiscard]] double code_of(const ListPixel& pixel, double v, std::size_t c) const {
+        return v * codes[c] + thresholds[static_cast<std::size_t>(pixel.y % period * period + pixel.x % period)];
     }
     void count_misses(const ScreenPictures& p) {
         for (const ListPixel& pixel : p.lists.pixels)
             for (std::size_t c = 0; c < 3; ++c)
-                misses += std::floor(code_of(pixel, p.at(pixel.x, pixel.y)[c])) != std::nearbyint(pixel.seen[c] * codes)
-                              ? 1
-                              : 0;
+                misses +=
+                    std::floor(code_of(pixel, p.at(pixel.x, pixel.y)[c], c)) != std::nearbyint(pixel.seen[c] * codes[c])
+                        ? 1
+                        : 0;
     }
     // Near a threshold the roundings of blends decide.
     [[nodiscard]] std::vector<Color> mapped(const ScreenPictures& p) const {
@@ -60,10 +62,10 @@ struct Dither {
         for (const ListPixel& pixel : p.lists.pixels) {
             Color& color = made.emplace_back(p.at(pixel.x, pixel.y));
             for (std::size_t c = 0; c < 3; ++c) {
-                const double at = code_of(pixel, color[c]), seen = std::nearbyint(pixel.seen[c] * codes);
+                const double at = code_of(pixel, color[c], c), seen = std::nearbyint(pixel.seen[c] * codes[c]);
                 const double code = std::floor(at);
-                const bool is_near = std::fabs(at - std::max(seen, code)) < 2 * codes * p.lists.unit();
-                color[c] = (is_near ? seen : code) / codes;
+                const bool is_near = std::fabs(at - std::max(seen, code)) < 2 * codes[c] * p.lists.unit();
+                color[c] = (is_near ? seen : code) / codes[c];
             }
         }
         return made;
@@ -76,7 +78,7 @@ bool are_codes(const std::set<double>& values, double codes, double unit) {
 }
 
 // The period with the fewest values that it does not give; a longer one must earn its thresholds.
-void add_codes(const ScreenPictures& p, double codes, const std::string& kept, ScreenProofs& proofs) {
+void add_codes(const ScreenPictures& p, const Color& codes, const std::string& kept, ScreenProofs& proofs) {
     std::optional<Dither> best;
     for (const int period : {1, 2, 4, 8}) {
         auto thresholds = thresholds_of(p, period, codes);
@@ -98,20 +100,34 @@ void add_codes(const ScreenPictures& p, double codes, const std::string& kept, S
 }  // namespace
 
 void add_dithers(const ScreenPictures& p, ScreenProofs& proofs) {
-    std::set<double> values;
-    for (const ListPixel& pixel : p.lists.pixels) values.insert(pixel.seen.begin(), pixel.seen.end());
+    std::array<std::set<double>, 3> values;
+    for (const ListPixel& pixel : p.lists.pixels)
+        for (std::size_t c = 0; c < 3; ++c) values[c].insert(pixel.seen[c]);
     const bool is_8_bits = p.lists.format == PortFormat::unorm8;
-    for (int bits = 1; bits <= 7; ++bits) {
-        const double codes = std::exp2(bits) - 1, masked = 255 / std::exp2(8 - bits);
-        if (are_codes(values, codes, p.lists.unit())) {
-            add_codes(p, codes, fmt::format("{} bits", bits), proofs);
-            return;
-        }
-        if (is_8_bits && are_codes(values, masked, 1e-4)) {
-            add_codes(p, masked, fmt::format("{} bits, the low ones are 0", bits), proofs);
-            return;
+    Color codes{}, masked{};
+    std::array<int, 3> bits{}, kept{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        for (int b = 7; b > 0; --b) {
+            const double all = std::exp2(b) - 1, high = 255 / std::exp2(8 - b);
+            // A code of fewer bits whose high bits are repeated may be one below the nearest.
+            if (are_codes(values[c], all, (b < 7 ? 1.7 : 1) * p.lists.unit())) {
+                codes[c] = all;
+                bits[c] = b;
+            }
+            if (is_8_bits && are_codes(values[c], high, 1e-4)) {
+                masked[c] = high;
+                kept[c] = b;
+            }
         }
     }
+    const auto words = [](const std::array<int, 3>& b) {
+        return b[0] == b[1] && b[1] == b[2] ? fmt::format("{} bits", b[0])
+                                            : fmt::format("{}, {} and {} bits", b[0], b[1], b[2]);
+    };
+    if (std::ranges::count(bits, 0) == 0)
+        add_codes(p, codes, words(bits), proofs);
+    else if (std::ranges::count(kept, 0) == 0)
+        add_codes(p, masked, words(kept) + ", the low ones are 0", proofs);
 }
 
 namespace {
