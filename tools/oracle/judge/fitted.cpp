@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
+#include "tools/oracle/fragments/sample.h"
+#include "tools/oracle/picture/picture.h"
 #include "tools/oracle/program/drawing/fit_drawings.h"
 
 namespace strata::oracle {
@@ -43,8 +46,10 @@ std::string FittedPicture::lines(std::size_t pixels) const {
     return text;
 }
 
-FittedPicture fitted_picture(const peeling::FrameRequest& input, const verdict::SceneFragments& fragments,
-                             const verdict::Colors& colors) {
+namespace {
+
+FittedPicture fitted_in_its_format(const peeling::FrameRequest& input, const verdict::SceneFragments& fragments,
+                                   const verdict::Colors& colors) {
     const program::Lists all = program::lists_of(fragments, colors, true);
     FittedPicture found{.fitting = {.right = program::best_fitness(all, {})}};
     if (program::is_plainly_right(found.fitting.right) && found.fitting.right.beyond == 0) {
@@ -60,6 +65,30 @@ FittedPicture fitted_picture(const peeling::FrameRequest& input, const verdict::
     program::Fitting fitted = fit(program::lists_of(fragments, colors));
     if (!is_pair || fitted.state == State::explained) found.fitting = std::move(fitted);
     return found;
+}
+
+TargetImage in_8_bits(const verdict::Colors& colors) {
+    TargetImage image{.name = "color", .width = colors.width(), .height = colors.height(), .channels = 3};
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const std::array<double, 4> color = colors.at(x, y);
+            for (std::size_t c = 0; c < 3; ++c)
+                image.codes.push_back(static_cast<std::uint32_t>(std::clamp(color[c], 0.0, 1.0) * 255 + 0.5));
+        }
+    return image;
+}
+
+}  // namespace
+
+FittedPicture fitted_picture(const peeling::FrameRequest& input, const verdict::SceneFragments& fragments,
+                             const verdict::Colors& colors) {
+    FittedPicture found = fitted_in_its_format(input, fragments, colors);
+    const program::PortFormat format = found.fitting.right.rounding.result;
+    const bool is_fine = format == program::PortFormat::exact || format == program::PortFormat::half;
+    if (!is_fine || found.is_explained() || found.fitting.is_right()) return found;
+    const TargetImage codes = in_8_bits(colors);
+    FittedPicture coarse = fitted_in_its_format(input, fragments, verdict::Colors{codes});
+    return coarse.is_explained() ? std::move(coarse) : std::move(found);
 }
 
 bool is_habit_of(const FittedPicture& seen, const verdict::SceneFragments& fragments, const verdict::Colors& own) {

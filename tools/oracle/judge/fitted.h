@@ -3,7 +3,8 @@
 //
 // Rule     A picture that rounding alone explains at every pixel, those at edges too, is right. Drawings are asked
 // first, then places, then programs; a drawing with one more edit is told only if the other
-//          two explain nothing.
+//          two explain nothing. A picture of floats that nothing explains is asked again in codes of 8 bits, as
+//          ports interpolate in their own ways.
 // Tests    tests/tools/oracle/program, tests/tools/library/judge_test.cpp
 #pragma once
 #include <string>
