@@ -243,3 +243,63 @@ TEST_CASE("positions on a coarse grid are named") {
     const std::string text = to_text(fit_drawings(lists, other_drawings(opened.input(), lists, colors)));
     CHECK(text.starts_with("wrong: positions are rounded to half pixels\n"));
 }
+
+namespace {
+
+// A picture of the scene with other colours, or with the layers of `made`, judged by the scene as it is.
+std::string judged_by(const OpenedScene& opened, const strata::oracle::TargetImage& picture) {
+    const strata::oracle::verdict::SceneFragments fragments = opened.fragments();
+    const strata::oracle::verdict::Colors colors{picture};
+    const Lists lists = lists_of(fragments, colors, true);
+    const std::string text = to_text(fit_drawings(lists, other_drawings(opened.input(), lists, colors)));
+    return text.substr(0, text.find('\n'));
+}
+
+// What plain code composites of the layers at a pixel.
+using Paints = std::function<PortColor(const ListPixel& given, const ListPixel& clear)>;
+strata::oracle::TargetImage painted_from(const Lists& given, const Lists& clear, const Paints& paints) {
+    strata::oracle::TargetImage made{.name = "color", .width = given.width, .height = given.height, .channels = 3};
+    for (std::size_t i = 0; i < given.pixels.size(); ++i)
+        for (const double c : paints(given.pixels[i], clear.pixels[i]))
+            made.codes.push_back(static_cast<std::uint32_t>(c * 255 + 0.5));
+    return made;
+}
+
+void blend_over(PortColor& below, const PortColor& color, double alpha) {
+    for (std::size_t c = 0; c < 3; ++c) below[c] = color[c] * alpha + below[c] * (1 - alpha);
+}
+
+}  // namespace
+
+TEST_CASE("sides that are exchanged, and layers without fog, are named") {
+    OpenedScene opened{"teapot", 64, 48};
+    opened.options.alpha = 0.6f;
+    for (auto& material : opened.scene.list.materials) std::swap(material.front, material.back);
+    const auto exchanged = opened.picture("front_to_back", strata::pipeline::Format::rgba8);
+    REQUIRE(exchanged);
+    for (auto& material : opened.scene.list.materials) std::swap(material.front, material.back);
+    CHECK(judged_by(opened, *exchanged) == "wrong: all layers have the colours of their other side");
+
+    const Lists without = lists_of(opened.fragments(), strata::oracle::verdict::Colors{*exchanged}, true);
+    opened.options.fog = strata::pipeline::Fog{.start = 10, .end = 18, .color = {0.6f, 0.6f, 0.9f, 1}};
+    const Lists with = lists_of(opened.fragments(), strata::oracle::verdict::Colors{*exchanged}, true);
+    const auto first_fogged = [](const ListPixel& given, const ListPixel& other) {
+        PortColor color = given.behind;
+        for (std::size_t k = given.fragments.size(); k-- > 0;)
+            blend_over(color, (k == 0 ? given : other).fragments[k].color, given.fragments[k].alpha);
+        return color;
+    };
+    CHECK(judged_by(opened, painted_from(with, without, first_fogged)) ==
+          "wrong: all layers but the nearest have no fog");
+    const auto fogged_at_end = [](const ListPixel& given, const ListPixel& other) {
+        PortColor color = given.behind;
+        for (std::size_t k = given.fragments.size(); k-- > 0;)
+            blend_over(color, other.fragments[k].color, given.fragments[k].alpha);
+        if (given.fragments.empty()) return color;
+        const double fogged = given.fragments[0].color[2], bare = other.fragments[0].color[2], fog = double{0.9f};
+        blend_over(color, {double{0.6f}, double{0.6f}, fog}, (fogged - bare) / (fog - bare));
+        return color;
+    };
+    CHECK(judged_by(opened, painted_from(with, without, fogged_at_end)) ==
+          "wrong: the finished pixel has the fog of its nearest layer, where each layer is to have its own");
+}

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
 #include "tests/tools/oracle/program/plain_port.h"
 
@@ -114,4 +115,26 @@ TEST_CASE("pixels beyond the last whole tile in either direction are named", "[s
     CHECK(text.starts_with("wrong: all fragments at pixels with "));
     CHECK(text.find("x at least 48") != text.npos);
     CHECK(text.find("y at least 32") != text.npos);
+}
+
+TEST_CASE("layers that are lost by chance are told as that", "[slow]") {
+    const PortScene scene = random_scene(45);
+    std::mt19937 engine{7};
+    const std::string text =
+        judged(scene, painted(scene, [&](PortList list, int, int) {
+                   if (list.size() > 1 && engine() % 3 == 0)
+                       list.erase(list.begin() + static_cast<std::ptrdiff_t>(engine() % list.size()));
+                   return list;
+               }));
+    INFO(text);
+    CHECK(text.starts_with("wrong: at "));
+    CHECK(text.find("some fragments are left out, and no property separates them") != text.npos);
+    // Colours without any relation to the layers are not told as that.
+    const std::string noise = judged(scene, painted(scene, [&](PortList list, int, int) {
+                                         for (PortFragment& f : list)
+                                             for (double& c : f.color) c = static_cast<double>(engine() % 256) / 255;
+                                         return list;
+                                     }));
+    INFO(noise);
+    CHECK(noise.find("chance") == noise.npos);
 }

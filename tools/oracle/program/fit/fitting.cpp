@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/oracle/program/fit/at_random.h"
 #include "tools/oracle/program/fit/pairs.h"
 
 namespace strata::oracle::program {
@@ -47,7 +48,9 @@ bool says_the_same(const Program& a, const Program& b) {
 std::vector<Proof> alike(const Lists& lists, std::vector<Proof> proofs) {
     if (proofs.empty()) return proofs;
     // A cause goes before a free fit of many numbers.
-    const auto is_free = [](const Proof& p) { return p.program.edits.back().entry->start != nullptr; };
+    const auto is_free = [](const Proof& p) {
+        return !p.program.edits.empty() && p.program.edits.back().entry->start != nullptr;
+    };
     if (!std::ranges::all_of(proofs, is_free)) std::erase_if(proofs, is_free);
     const double best = std::ranges::min(proofs, {}, &Proof::cost).cost;
     std::erase_if(proofs, [&](const Proof& p) { return p.cost > 1.15 * best + 60; });
@@ -120,6 +123,7 @@ Fitting fitted(const Lists& lists) {
         const std::vector<Proof> bases = alike(lists, std::move(proofs));
         if (whole.empty() && !bases.empty() && bases[0].cost < some * right.bits)
             whole = with_one_more(lists, bases[0], right);
+        if (whole.empty()) whole = explained_at_random(lists, right);
     }
     if (!whole.empty()) {
         fitting.state = State::explained;

@@ -3,7 +3,8 @@
 //
 // Rule     A picture is right if rounding alone explains it (score.h, is_narrow), cheaply, or if it does and no edit
 //          explains it at less than 0.12 of its cost. Otherwise one edit is searched and proved, then two plain ones
-//          (pairs.h), then a second one on top of the best that costs less than 0.8 of the right program. Explanations
+//          (pairs.h), then a second one on top of the best that costs less than 0.8 of the right program; at last,
+//          an edit that no property tells where it is made (at_random.h). Explanations
 //          that predict the same picture are one, with several sentences, the plainest first.
 // Numbers  Of pictures of more than 65,536 pixels every nth is searched, 32,768 in all; explanations are proved on all.
 // Tests    tests/tools/oracle/program/found_test.cpp, right_test.cpp
