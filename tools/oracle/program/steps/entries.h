@@ -31,6 +31,19 @@ void each(PortLayers& layers, const SelectedFragments& selection, Parameters par
         if (selection.has(layer)) change(layer, parameters);
 }
 
+// A fold; `is_fitted`: its parameter is continuous.
+using FoldFunction = Color (*)(std::span<const PortLayer> layers, const Color& behind, const PortRounding& rounding,
+                               Parameters p);
+constexpr StepEntry fold_entry(std::string_view words, double price, FoldFunction fold,
+                               std::span<const double> parameters = {}, bool is_fitted = false) {
+    return {.step = PortStep::fold,
+            .words = words,
+            .price = price,
+            .parameters = parameters,
+            .is_continuous = is_fitted,
+            .fold = fold};
+}
+
 // sRGB's curve.
 [[nodiscard]] double encoded(double linear) noexcept;
 [[nodiscard]] double decoded(double code) noexcept;
