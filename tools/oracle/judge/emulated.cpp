@@ -1,6 +1,8 @@
 // tools/oracle/judge/emulated.cpp - finds the emulation that gives a picture, by a square of it first (emulated.h).
 #include "tools/oracle/judge/emulated.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 
@@ -116,6 +118,30 @@ Emulated emulated_of(const Diagnosis& d) {
 Emulated emulated_alone(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
                         const AskedPicture& asked, const rasterizer::Rect& part) {
     return EmulationSearch{input, algorithm, asked, part}.found();
+}
+
+std::string sentence_of(const Emulated& emulated, const peeling::Algorithm& algorithm, std::size_t pixels) {
+    if (emulated.kind == Emulated::Kind::right)
+        return fmt::format("right: equal to the picture of {} at all {} pixels", algorithm.name, pixels);
+    return fmt::format("{}: every pixel is{} that of: {}",
+                       emulated.kind == Emulated::Kind::other_options ? "right under other options" : "wrong",
+                       emulated.is_exact ? "" : ", within one code,", emulated.words);
+}
+
+std::optional<std::string> right_but_for_rounding(const TargetImage& own, const TargetImage& candidate,
+                                                  pipeline::ColorSpace space, const peeling::Algorithm& algorithm) {
+    const std::size_t pixels = candidate.pixels();
+    if (const auto floats = rounded_otherwise(own, candidate, space))
+        return fmt::format("right but for rounding: the picture of {}; {} of {} pixels differ, by at most {:.1g}",
+                           algorithm.name, floats->pixels, pixels, floats->greatest);
+    const auto at_ties = differing_at_ties(own, candidate, space);
+    if (!at_ties) return std::nullopt;
+    if (*at_ties == 0) return sentence_of({.kind = Emulated::Kind::right}, algorithm, pixels);
+    return fmt::format(
+        "right but for rounding: the picture of {}; {} of {} pixels have the other of the two codes in whose middle a "
+        "value "
+        "lies",
+        algorithm.name, *at_ties, pixels);
 }
 
 bool is_picture_of(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm, const AskedPicture& asked,

@@ -5,6 +5,7 @@
 //          are refuted by one square of it. Pictures of more than `most_pixels_of_emulations` are left to a diagnosis.
 // Tests    tests/tools/library/judge_test.cpp
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,16 @@ inline constexpr std::size_t most_pixels_of_emulations = std::size_t{1} << 18;
 // `part`: the square that is compared first. Throws Refused if the right run is refused.
 [[nodiscard]] Emulated emulated_alone(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
                                       const AskedPicture& asked, const rasterizer::Rect& part);
+
+// "right: equal to the picture of dual at all 6912 pixels"
+[[nodiscard]] std::string sentence_of(const Emulated& emulated, const peeling::Algorithm& algorithm,
+                                      std::size_t pixels);
+
+// Of a picture that has the algorithm's own values but for ties of two codes, or the last bits of floats. Empty if it
+// is another.
+[[nodiscard]] std::optional<std::string> right_but_for_rounding(const TargetImage& own, const TargetImage& candidate,
+                                                                pipeline::ColorSpace space,
+                                                                const peeling::Algorithm& algorithm);
 
 // True if the right run has the picture; false, too, if it is refused.
 [[nodiscard]] bool is_picture_of(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,

@@ -38,14 +38,6 @@ std::pair<std::string, std::string> divided(const std::string& text) {
     return {text.substr(0, end), text.substr(std::min(text.size(), end + 1))};
 }
 
-std::string sentence_of(const Emulated& emulated, const peeling::Algorithm& algorithm, std::size_t pixels) {
-    if (emulated.kind == Kind::right)
-        return fmt::format("right: equal to the picture of {} at all {} pixels", algorithm.name, pixels);
-    return fmt::format("{}: every pixel is{} that of: {}",
-                       emulated.kind == Kind::other_options ? "right under other options" : "wrong",
-                       emulated.is_exact ? "" : ", within one code,", emulated.words);
-}
-
 // A file of straight colours by definition that holds others.
 bool is_premultiplied(const verdict::PictureVerdict& single) {
     return single.formed.is_chosen && !single.formed.use.is_divided;
@@ -257,31 +249,16 @@ class Judge {
         }
     }
 
-    [[nodiscard]] bool is_equal_but_for_rounding() {
-        const TargetImage& colors = colors_of(asked_.candidate);
-        if (const auto floats = rounded_otherwise(colors_of(own()), colors, input_.space)) {
-            found_.state = JudgedState::right;
-            found_.sentence =
-                fmt::format("right but for rounding: the picture of {}; {} of {} pixels differ, by at most {:.1g}",
-                            algorithm_.name, floats->pixels, colors.pixels(), floats->greatest);
-            return true;
-        }
-        const auto at_ties = differing_at_ties(colors_of(own()), colors, input_.space);
-        if (!at_ties) return false;
-        found_.state = JudgedState::right;
-        found_.sentence = *at_ties == 0
-                              ? sentence_of({.kind = Kind::right}, algorithm_, colors.pixels())
-                              : fmt::format(
-                                    "right but for rounding: the picture of {}; {} of {} pixels have the other of "
-                                    "the two codes in whose middle a value lies",
-                                    algorithm_.name, *at_ties, colors.pixels());
-        return true;
-    }
-
     // An approximate algorithm has a structure of its own; a port that has it, too, is right. A picture with the exact
     // structure is not that of an algorithm that has another one.
     [[nodiscard]] bool is_decided_by_own_structure() {
-        if (is_equal_but_for_rounding()) return true;
+        const auto rounded =
+            right_but_for_rounding(colors_of(own()), colors_of(asked_.candidate), input_.space, algorithm_);
+        if (rounded) {
+            found_.state = JudgedState::right;
+            found_.sentence = *rounded;
+            return true;
+        }
         const std::vector<std::string> seen = layers_->mistakes(input_.list);
         if (seen.empty() && !layers_->is_right()) return false;
         const Picture own = own_as_stored();
@@ -336,7 +313,11 @@ class Judge {
             drop_leads();
         const auto [first, rest] =
             layers_ ? divided(layers_->text(input_.list)) : std::pair<std::string, std::string>{};
-        if (found_.sentence.empty()) found_.sentence = first;
+        constexpr std::string_view unexplained = ", and no single mistake explains them all";
+        if (found_.sentence.empty())
+            found_.sentence = makes_right_ && first.ends_with(unexplained)
+                                  ? first.substr(0, first.size() - unexplained.size())
+                                  : first;
         if (found_.is_right && !is_by_emulation_ && layers_ && layers_->single && is_premultiplied(*layers_->single))
             found_.sentence += "; colours are premultiplied, where such a file has straight ones";
         write_text(rest);
