@@ -121,6 +121,12 @@ TEST_CASE("each variant of blending reaches the value that is worked out by hand
     const Compositor over{{.order = Order::over, .front = floats, .back = floats, .result = floats}};
     stack.mixing = {.behind = Behind::twice};
     CHECK(over.reach(stack)[0].low > over.reach(stack)[0].high);  // there is no front accumulator for this mixing
+    // 0.25 is multiplied by alpha already; 1 - 0.5^2 of white is behind it.
+    const Stack premultiplied{.layers = {{.color = {0.25f, 0, 0, 0.5f}, .is_premultiplied = true}},
+                              .background = {1, 1, 1, 1},
+                              .mixing = {.through = Through::squared}};
+    CHECK(over.reach(premultiplied)[0].holds(0.25 + 0.75));
+    CHECK(over.reach(premultiplied)[0].low > 0.999);
 }
 
 TEST_CASE("one layer of 8-bit codes reaches exactly the code that integer arithmetic gives") {
