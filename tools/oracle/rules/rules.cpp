@@ -32,6 +32,8 @@ SceneFacts facts_of(const SceneFragments& scene, const Sample& sample) {
     for (const SampledPixel& pixel : sample.pixels()) {
         facts.has_opaque |= pixel.list.has_opaque;
         facts.has_hidden |= !pixel.list.hidden.empty();
+        const Rgba& behind = pixel.list.behind;
+        facts.is_dark_behind &= behind[0] == 0 && behind[1] == 0 && behind[2] == 0;
         facts.has_centres_on_edges |= pixel.list.edge != nullptr && pixel.list.edge->has_centre_on_edge;
         for (const Fragment& f : pixel.fragments) {
             instances.insert(f.instance);
@@ -175,9 +177,11 @@ std::vector<Rule> rules_for(const SceneFacts& facts) {
     add_orders(all, facts);
     add_numbered(all, {averaged}, 0, 7);
     add_mixings(all);
-    add(all, {added, weighted_sum, multiplied, composed_twice, background_lost, background_twice, surface_lost,
-              picture_encoded, picture_decoded});
-    all.push_back({.kind = background_lost, .n = 1});
+    add(all, {added, weighted_sum, multiplied, composed_twice, surface_lost, picture_encoded, picture_decoded});
+    if (!facts.is_dark_behind) {
+        add(all, {background_lost, background_twice});
+        all.push_back({.kind = background_lost, .n = 1});
+    }
     if (facts.has_other_background) add(all, {background_other});
     if (facts.has_centres_on_edges) add(all, {edges_twice, edges_never});
     if (facts.has_hidden) add(all, {hidden_shown, hidden_alone});

@@ -23,7 +23,7 @@ struct SceneFacts {
     std::vector<std::uint32_t> instances{}, materials{};
     Rgba background{};  // the colour of background_other
     bool has_opaque = false, has_hidden = false, has_two_facings = false, has_centres_on_edges = false,
-         has_other_background = false;
+         has_other_background = false, is_dark_behind = true;  // what is behind all layers is black
 };
 [[nodiscard]] SceneFacts facts_of(const SceneFragments& scene, const Sample& sample);
 
