@@ -1,10 +1,9 @@
 // rasterizer/coverage/sample_rectangle.h - the lines of a frame of several samples.
 //
-// Rule     A sample is covered if it lies in the rectangle that has the segment as its middle line and the line's
-// width.
-//          The width is rounded to 1/256 pixel, halves up, and at most 32767 pixels. A side, or an end, owns the points
-//          on it if the rectangle lies to its right, or exactly below it. The ends are those of the snapped segment,
-//          moved so that the sample is at the pixel's centre (window.h). Points are squares by their own rule.
+// Rule     A sample is covered if it lies in the rectangle of the line's width around the segment. The width is rounded
+//          to 1/256 pixel, halves up, and at most 32767 pixels. A side, or an end, owns the points on it if the
+//          rectangle lies to its right, or exactly below it. The ends are those of the snapped segment, moved so that
+//          the sample is at the pixel's centre (window.h). Points are squares by their own rule.
 // Source   OpenGL 4.6 14.4.3 and 14.5.4; rasterizer/reference/lines-and-points.md 4.2.
 // Numbers  The distance from the segment, times its length, is at most floor(sqrt(N) / 512) with N = (w 2^n)^2 |d|^2 <
 //          2^127, w in 1/256 pixel and n subpixel bits: all in integers.

@@ -142,6 +142,8 @@ TEST_CASE("fragments that are kept or dropped by a pattern are told as that, wit
         "every pixel shows one layer or what is behind: fragments are kept or dropped, not blended";
     CHECK(screen_of(scene, screen_door(4)) ==
           start + ", by a pattern that repeats every 4 x 4 pixels and serves all layers");
+    CHECK(screen_of(scene, screen_door(3)) ==
+          start + ", by a pattern that repeats every 3 x 3 pixels and serves all layers");
     CHECK(screen_of(scene, screen_door(2)) ==
           start + ", by a pattern that repeats every 2 x 2 pixels and serves all layers");
 }

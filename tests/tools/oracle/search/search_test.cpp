@@ -51,6 +51,7 @@ const std::vector<WrongPort>& wrong_ports() {
              l.visible.resize(std::min<std::size_t>(l.visible.size(), 2));
              std::ranges::stable_sort(l.visible, {}, &pipeline::CapturedFragment::code);
          }},
+        {"hidden_shown 0", [](PortList& l) { l.visible.insert(l.visible.end(), l.hidden.begin(), l.hidden.end()); }},
         {"behind_drawn 0",
          [](PortList& l) {
              std::ranges::sort(l.visible, {}, &pipeline::CapturedFragment::primitive);
@@ -60,7 +61,6 @@ const std::vector<WrongPort>& wrong_ports() {
              std::ranges::reverse(kept);
              l.visible = kept;
          }},
-        {"hidden_shown 0", [](PortList& l) { l.visible.insert(l.visible.end(), l.hidden.begin(), l.hidden.end()); }},
         {"alpha_squared 0",
          [](PortList& l) {
              for (auto& f : l.visible) f.color[3] *= f.color[3];

@@ -46,6 +46,7 @@ ACCEPTED = {
     ("*", "--compare-epsilon", "-0"): "zero",
     ("*", "--overestimation", "-0"): "zero",
     ("*", "--moment-bias", "-0"): "zero",
+    ("*", "--weight", "-1"): "a formula, whose negative value is the weight 0",
     ("bench", "--warm-up", "-0"): "zero",
 }
 # Messages may use these names instead.

@@ -145,10 +145,10 @@ TEST_CASE("a picture's command names files in its own folder or in that of --fil
 TEST_CASE("an option beside --from replaces the recorded one, and --orbit replaces --camera") {
     const Folder folder;
     const auto pixels = [&](const std::string& line) {
-        const CommandResult ended = shell(folder, "strata render " + line + " --no-audit -q -o out.npy");
+        const CommandResult ended = shell(folder, "strata render " + line + " --no-audit -q -o out.exr");
         INFO(line << ended.err);
         REQUIRE(ended.status == 0);
-        std::ifstream file{folder / "out.npy", std::ios::binary};
+        std::ifstream file{folder / "out.exr", std::ios::binary};
         return std::string{std::istreambuf_iterator<char>{file}, {}};
     };
     REQUIRE(shell(folder, "strata render teapot --size 32x24 --orbit 10,20 --background 1,1,1 -q --no-audit -o a.png")

@@ -189,7 +189,7 @@ void add_chosen_layers(const ScreenPictures& p, std::vector<ScreenMap>& found) {
     if (covered < 50 || none > std::max<std::size_t>(2, covered / 500) || 20 * behind < covered) return;
     std::string words = "every pixel shows one layer or what is behind: fragments are kept or dropped, not blended";
     int known = 0;
-    for (const int period : {2, 4, 8, 16})
+    for (int period = 2; period <= 16; ++period)
         if (known == 0 && is_by_pattern(p.lists, shown, period)) known = period;
     words += known > 0
                  ? fmt::format(", by a pattern that repeats every {} x {} pixels and serves all layers", known, known)
