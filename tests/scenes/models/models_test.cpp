@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "rasterizer/base/input_error.h"
 #include "tests/support/own_folder.h"
 
 using namespace strata;
@@ -34,6 +35,16 @@ const std::string stl =
 const std::string mtl =
     "newmtl wall\nKd 0.2 0.4 0.6\nillum 2\nnewmtl pane\nKd 1 0 0\nd 0.25\nillum 2\nnewmtl sign\nKd 1 1 1\nillum "
     "0\nmap_Kd sign.bmp\n";
+
+// What a model of these bytes is refused with, without the folder; "none" if it is read.
+std::string message_of(const strata::test::OwnFolder& folder, const std::string& name, const std::string& bytes) {
+    try {
+        static_cast<void>(load_scene(put(folder, name, bytes), {}));
+        return "none";
+    } catch (const InputError& error) {
+        return std::string{error.what()}.substr(folder.path().size() + 1);
+    }
+}
 
 }  // namespace
 
@@ -180,13 +191,8 @@ TEST_CASE("a fault of a file that a model names is reported as a fault of the mo
 
 TEST_CASE("a PLY or OFF file that claims more than its bytes hold is refused before memory is reserved") {
     const strata::test::OwnFolder folder;
-    const auto message = [&](const std::string& name, const std::string& bytes) -> std::string {
-        try {
-            static_cast<void>(load_scene(put(folder, name, bytes), {}));
-            return "none";
-        } catch (const InputError& error) {
-            return std::string{error.what()}.substr(folder.path().size() + 1);
-        }
+    const auto message = [&](const std::string& name, const std::string& bytes) {
+        return message_of(folder, name, bytes);
     };
     const auto with = [](std::string text, const std::string& before, const std::string& after) {
         return text.replace(text.find(before), before.size(), after);
@@ -214,13 +220,8 @@ TEST_CASE("a PLY or OFF file that claims more than its bytes hold is refused bef
 
 TEST_CASE("an empty model, a PLY file cut off in its header and an OFF file with other corners are refused") {
     const strata::test::OwnFolder folder;
-    const auto message = [&](const std::string& name, const std::string& bytes) -> std::string {
-        try {
-            static_cast<void>(load_scene(put(folder, name, bytes), {}));
-            return "none";
-        } catch (const InputError& error) {
-            return std::string{error.what()}.substr(folder.path().size() + 1);
-        }
+    const auto message = [&](const std::string& name, const std::string& bytes) {
+        return message_of(folder, name, bytes);
     };
     for (const std::string name : {"e.ply", "e.obj", "e.stl", "e.off"})
         CHECK(message(name, "") == name + ": size: expected a model, found an empty file");
