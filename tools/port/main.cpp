@@ -59,11 +59,22 @@ void take_sampling(const PackSampling& pack, PortOptions& options, SampleExpress
     if (pack.composites == "zero") loads.full_screen = "0";
 }
 
+// A peel from the front alone has reversed depth: the other algorithms' programs compare or blend depths that grow.
+void reverse_depth(PortSettings& settings, const std::vector<std::string>& algorithms) {
+    for (const std::string& name : algorithms)
+        if (name != "front_to_back")
+            throw std::runtime_error("depth_order: expected front_to_back alone with reversed depth, found " + name);
+    settings.depth_func = GL_GREATER;
+    settings.behind = "z < peeled";
+    settings.farthest = 0;
+}
+
 int run(PortOptions options) {
     const Pack pack = read_pack(options.pack);
     const std::vector<std::string> algorithms = chosen(options, pack);
     PortSettings settings = settings_with(options.mistakes);
     if (options.origin == "lower-left") settings.origin = GL_LOWER_LEFT;
+    if (pack.is_reversed) reverse_depth(settings, algorithms);
     take_sampling(pack.sampling, options, settings.sampled.loads);
     const bool has_targets = options.samples == 1 || options.sample >= 0 || pack.sampling.samples > 1;
     const HeadlessContext context(options.driver, options.threads);

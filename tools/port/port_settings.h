@@ -40,6 +40,7 @@ struct PortSettings {
     // Depth
     GLenum depth_func = GL_LESS;
     const char* behind = "z > peeled";  // comparison of two quantised depths
+    float farthest = 1;                 // window depth; 0 under reversed depth, where GREATER is nearer
     PixelFormat min_max = rg32f;
     std::array<float, 4> empty_min_max{-1, -1, 0, 0};
     const PixelFormat* depth = nullptr;  // instead of the requested format

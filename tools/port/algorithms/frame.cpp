@@ -30,14 +30,14 @@ Opaque::Opaque(const JobInput& input, const PixelFormat& depth)
 void Opaque::draw(const GpuScene& scene) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     glClearBufferfv(GL_COLOR, 0, background_.data());
-    glClearBufferfv(GL_DEPTH, 0, &far_plane);
+    glClearBufferfv(GL_DEPTH, 0, &settings_.farthest);
     if (!exists_) return;
     glDisable(GL_BLEND);
     glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
+    glDepthFunc(settings_.farthest == 0 ? GL_GREATER : GL_LESS);
     glUseProgram(program_.name());
     scene.draw(Surfaces::opaque);
-    if (!settings_.opaque_tested) glClearBufferfv(GL_DEPTH, 0, &far_plane);
+    if (!settings_.opaque_tested) glClearBufferfv(GL_DEPTH, 0, &settings_.farthest);
     if (settings_.sampled.opaque_resolved) resolve_in_place(color_.name(), color_format_, size_);
     if (settings_.sampled.first_opaque_depth) share_first_depth(depth_.name(), size_);
 }
@@ -45,7 +45,7 @@ void Opaque::draw(const GpuScene& scene) const {
 void Opaque::copy_depth_to(const Handle& framebuffer) const {
     if (!exists_) {
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-        glClearBufferfv(GL_DEPTH, 0, &far_plane);
+        glClearBufferfv(GL_DEPTH, 0, &settings_.farthest);
         return;
     }
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());

@@ -80,8 +80,6 @@ bool choice(const Manifest& manifest, const std::string& place, const std::strin
 // Rejects state that the port does not implement. A missing key means the default.
 void check_state(const Manifest& manifest) {
     const ordered_json& state = manifest.at("/state");
-    if (state.value("depth_order", "less") != "less")
-        manifest.refuse("/state/depth_order", "less (the port does not support reversed depth)", "greater");
     for (const char* const choice : {"depth_path", "reference_path"})
         if (state.contains(choice) && !state.at(choice).is_null())
             manifest.refuse(std::string("/state/") + choice, "null", state.at(choice).dump());
@@ -196,6 +194,7 @@ Pack read_pack(const std::string& folder) {
     pack.formats = {format_at(manifest, "/state/color_format", rgba8), format_at(manifest, "/state/depth", d32f)};
     for (std::size_t i = 0; i < 4; ++i) pack.background[i] = manifest.real("/state/background", i);
     pack.zero_to_one = choice(manifest, "/state/clip_depth", "minus_one_to_one", "zero_to_one");
+    pack.is_reversed = manifest.at("/state").value("depth_order", "less") == "greater";
     check_state(manifest);
     pack.sampling = sampling_of(manifest);
     pack.mesh.line_width = size_option(manifest, "line_width");

@@ -21,6 +21,7 @@ struct Pack {
     TargetFormats formats;
     std::array<float, 4> background{0, 0, 0, 1};
     bool zero_to_one = false;  // clip depths
+    bool is_reversed = false;  // depths: the nearest is the greatest
     PackSampling sampling{};
     std::vector<std::string> algorithms;  // the algorithms of its results
 };
