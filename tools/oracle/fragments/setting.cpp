@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "pipeline/vertices/draw_list.h"
+#include "tools/oracle/fragments/eye_point.h"
 
 namespace strata::oracle::verdict {
 
@@ -29,14 +30,7 @@ std::string describe(const DrawingOrder& order) {
 
 namespace {
 
-using Point = std::array<double, 3>;
-
-Point transformed(const pipeline::Matrix& m, const Point& p) {
-    Point to{};
-    for (int row = 0; row < 3; ++row)
-        to[static_cast<std::size_t>(row)] = m[0][row] * p[0] + m[1][row] * p[1] + m[2][row] * p[2] + m[3][row];
-    return to;
-}
+using Point = EyePoint;
 
 struct Points {
     Point box{}, mean{};

@@ -7,10 +7,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <span>
 
-#include "peeling/render.h"
+#include "pipeline/vertices/matrix.h"
 #include "scenes/bounds.h"
+#include "tools/oracle/fragments/eye_point.h"
+#include "tools/oracle/judge/emulated.h"
 #include "tools/oracle/picture/stored_like.h"
 
 namespace strata::oracle {
@@ -19,47 +20,29 @@ namespace {
 
 using pipeline::Matrix;
 using pipeline::View;
-using Point = std::array<double, 3>;
+using Point = EyePoint;
 
 constexpr std::size_t most_pixels = std::size_t{1} << 16;  // of a picture whose camera is fitted
 constexpr double two_codes = 2.5 / 255;
-
-Point transformed(const Matrix& m, const Point& p) {
-    Point to{};
-    for (int row = 0; row < 3; ++row)
-        to[static_cast<std::size_t>(row)] = m[0][row] * p[0] + m[1][row] * p[1] + m[2][row] * p[2] + m[3][row];
-    return to;
-}
-
-Matrix product(const Matrix& a, const Matrix& b) {
-    Matrix c = identity;
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row) {
-            double sum = 0;
-            for (int k = 0; k < 4; ++k) sum += double{a[k][row]} * double{b[column][k]};
-            c[column][row] = static_cast<float>(sum);
-        }
-    return c;
-}
 
 // Turns by an angle in degrees in the plane of two axes, about a point.
 Matrix turn(int from, int to, double degrees, const Point& about) {
     const double angle = degrees * std::numbers::pi / 180;
     Matrix m = identity;
-    m[from][from] = m[to][to] = static_cast<float>(std::cos(angle));
-    m[from][to] = static_cast<float>(std::sin(angle));
-    m[to][from] = static_cast<float>(-std::sin(angle));
+    m[from][from] = m[to][to] = std::cos(angle);
+    m[from][to] = std::sin(angle);
+    m[to][from] = -std::sin(angle);
     const Point moved = transformed(m, about);
     for (int row = 0; row < 3; ++row) {
         const auto r = static_cast<std::size_t>(row);
-        m[3][row] = static_cast<float>(about[r] - moved[r]);
+        m[3][row] = about[r] - moved[r];
     }
     return m;
 }
 
 Matrix shift(int axis, double by) {
     Matrix m = identity;
-    m[3][axis] = static_cast<float>(by);
+    m[3][axis] = by;
     return m;
 }
 
@@ -74,17 +57,16 @@ struct Movement {
     void (*apply)(View& view, double by, const Middle& middle);
 };
 
-void in_world(View& view, const Matrix& m) { view.view = product(view.view, m); }
-void in_eye(View& view, const Matrix& m) { view.view = product(m, view.view); }
+void in_world(View& view, const Matrix& m) { view.view = pipeline::product(view.view, m); }
+void in_eye(View& view, const Matrix& m) { view.view = pipeline::product(m, view.view); }
 void scale(View& view, double x, double y) {
     for (int column = 0; column < 4; ++column) {
-        view.projection[column][0] *= static_cast<float>(x);
-        view.projection[column][1] *= static_cast<float>(y);
+        view.projection[column][0] *= x;
+        view.projection[column][1] *= y;
     }
 }
 void move_picture(View& view, int row, double by) {
-    for (int column = 0; column < 4; ++column)
-        view.projection[column][row] += static_cast<float>(by) * view.projection[column][3];
+    for (int column = 0; column < 4; ++column) view.projection[column][row] += by * view.projection[column][3];
 }
 
 const Movement movements[] = {
@@ -145,70 +127,75 @@ class CameraFit {
                     (corner >> axis & 1) != 0 ? bounds.hi[static_cast<int>(axis)] : bounds.lo[static_cast<int>(axis)]};
     }
 
-    // The best movement, or the best with another one, of those that make most pixels right by half a pixel or one.
-    [[nodiscard]] std::optional<AnotherCamera> found() {
+    [[nodiscard]] std::optional<AnotherCamera> found() const {
         const std::size_t given = wrong_by({});
         if (given < 8) return std::nullopt;
-        std::array<std::size_t, movement_count> roughly{}, order{};
+        const std::vector<std::size_t> order = likely(given);
+        if (order.empty()) return std::nullopt;
+        Fit best{.wrong = given};
+        std::size_t first = 0;
+        for (std::size_t i = 0; i < refined; ++i) {
+            Amounts alone{};
+            if (const std::size_t wrong = refine(alone, order[i]); wrong < best.wrong)
+                best = {alone, wrong}, first = order[i];
+        }
+        if (best.wrong > std::max(few, given / 20)) best = with_another(best, first, order, std::max(few, given / 20));
+        if (best.wrong > std::max(few, given / 6)) return std::nullopt;
+        return AnotherCamera{words_of(best.amounts), best.wrong};
+    }
+
+  private:
+    static constexpr std::size_t refined = 5, few = 3;
+
+    struct Fit {
+        Amounts amounts{};
+        std::size_t wrong = 0;
+    };
+
+    // The movements by what half a pixel or one makes right, most first; none if that is less than an eighth.
+    [[nodiscard]] std::vector<std::size_t> likely(std::size_t given) const {
+        std::array<std::size_t, movement_count> wrong{};
+        std::vector<std::size_t> order;
         for (std::size_t k = 0; k < movement_count; ++k) {
-            order[k] = k;
-            roughly[k] = given;
+            order.push_back(k);
+            wrong[k] = given;
             for (const double by : {-2.0, -1.0, 1.0, 2.0}) {
                 Amounts amounts{};
                 amounts[k] = by * unit(k);
-                roughly[k] = std::min(roughly[k], wrong_by(amounts));
+                wrong[k] = std::min(wrong[k], wrong_by(amounts));
             }
         }
-        std::ranges::stable_sort(order, {}, [&](std::size_t k) { return roughly[k]; });
-        if (8 * roughly[order[0]] > 7 * given) return std::nullopt;
-        constexpr std::size_t refined = 5;
-        std::array<Amounts, refined> alone{};
-        std::array<std::size_t, refined> wrong{}, rank{};
-        for (std::size_t i = 0; i < refined; ++i) {
-            rank[i] = i;
-            wrong[i] = refine(alone[i], order[i]);
-        }
-        std::ranges::stable_sort(rank, {}, [&](std::size_t i) { return wrong[i]; });
-        const std::size_t first = rank[0], most_wrong = std::max<std::size_t>(3, given / 6),
-                          good = std::max<std::size_t>(3, given / 20);
-        Amounts best = alone[first];
-        std::size_t least = wrong[first];
-        for (std::size_t k = 0; k < movement_count && least > good; ++k) {
-            if (order[k] == order[first]) continue;
-            Amounts both = alone[first];
-            std::size_t left = refine(both, order[k]);
-            for (int round = 0; round < 2 && left > good; ++round) {
-                refine(both, order[first]);
-                left = refine(both, order[k]);
-            }
-            if (left < least) least = left, best = both;
-        }
-        if (least > most_wrong) return std::nullopt;
-        return AnotherCamera{words_of(best), least};
+        std::ranges::stable_sort(order, {}, [&](std::size_t k) { return wrong[k]; });
+        return 8 * wrong[order[0]] > 7 * given ? std::vector<std::size_t>{} : order;
     }
 
-    // False if the device refuses the algorithm.
-    [[nodiscard]] bool is_drawn() { return drawn({}).has_value(); }
+    // The best of two movements, each refined in turn; the first that leaves at most `good` wrong.
+    [[nodiscard]] Fit with_another(const Fit& alone, std::size_t first, const std::vector<std::size_t>& order,
+                                   std::size_t good) const {
+        Fit best = alone;
+        for (const std::size_t k : order) {
+            if (k == first) continue;
+            if (best.wrong <= good) break;
+            Fit both = alone;
+            both.wrong = refine(both.amounts, k);
+            for (int round = 0; round < 2 && both.wrong > good; ++round) {
+                refine(both.amounts, first);
+                both.wrong = refine(both.amounts, k);
+            }
+            if (both.wrong < best.wrong) best = both;
+        }
+        return best;
+    }
 
-  private:
-    // The right picture of a camera.
-    [[nodiscard]] std::optional<verdict::Colors> drawn(const Amounts& amounts) {
+    // All pixels if the device refuses the algorithm.
+    [[nodiscard]] std::size_t wrong_by(const Amounts& amounts) const {
         View view = input_.view;
         for (std::size_t k = 0; k < movement_count; ++k)
             if (amounts[k] != 0) movements[k].apply(view, amounts[k], middle_);
-        peeling::RenderOptions options = input_.options;
-        options.audit = options.keep_layers = false;
-        const auto run = peeling::Renderer{input_.list, view, input_.profile, options}.render(algorithm_);
-        if (run.outcome == peeling::Outcome::refused) return std::nullopt;
-        Picture own{.file = "", .targets = {as_target(run.frame.color, "color")}};
-        own.targets[0].alpha_form = AlphaForm::premultiplied;
-        own_ = stored_like(std::move(own), Picture{.file = "", .targets = {picture_.target()}}, input_.space);
-        return verdict::Colors{own_.targets[0], picture_.use()};
-    }
-
-    [[nodiscard]] std::size_t wrong_by(const Amounts& amounts) {
-        const auto own = drawn(amounts);
-        return own ? differing(*own, picture_) : picture_.target().pixels();
+        const auto drawn = own_picture({input_.list, view, input_.profile, input_.options, input_.space}, algorithm_);
+        if (!drawn) return picture_.target().pixels();
+        const Picture own = stored_like(*drawn, Picture{.file = "", .targets = {picture_.target()}}, input_.space);
+        return differing(verdict::Colors{own.targets[0], picture_.use()}, picture_);
     }
 
     // The amount that moves a corner of the scene by half a pixel.
@@ -235,7 +222,7 @@ class CameraFit {
     }
 
     // Changes one amount to the best near it; returns the wrong pixels.
-    std::size_t refine(Amounts& amounts, std::size_t k) {
+    std::size_t refine(Amounts& amounts, std::size_t k) const {
         const double step = unit(k), start = amounts[k];
         std::size_t least = wrong_by(amounts);
         double best = start;
@@ -270,7 +257,6 @@ class CameraFit {
     const verdict::Colors& picture_;
     Middle middle_{};
     std::array<Point, 8> corners_{};
-    Picture own_{};
 };
 
 }  // namespace
@@ -282,9 +268,7 @@ std::string AnotherCamera::sentence(std::size_t pixels) const {
 std::optional<AnotherCamera> another_camera(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
                                             const verdict::Colors& picture) {
     if (picture.target().pixels() > most_pixels) return std::nullopt;
-    CameraFit fit{input, algorithm, picture};
-    if (!fit.is_drawn()) return std::nullopt;
-    return fit.found();
+    return CameraFit{input, algorithm, picture}.found();
 }
 
 }  // namespace strata::oracle

@@ -144,6 +144,16 @@ std::optional<std::string> right_but_for_rounding(const TargetImage& own, const 
         algorithm.name, *at_ties, pixels);
 }
 
+std::optional<Picture> own_picture(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm) {
+    peeling::RenderOptions options = input.options;
+    options.audit = options.keep_layers = false;
+    const auto run = peeling::Renderer{input.list, input.view, input.profile, options}.render(algorithm);
+    if (run.outcome == peeling::Outcome::refused) return std::nullopt;
+    Picture own{.file = "", .targets = {as_target(run.frame.color, "color")}};
+    own.targets[0].alpha_form = AlphaForm::premultiplied;
+    return own;
+}
+
 bool is_picture_of(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm, const AskedPicture& asked,
                    const rasterizer::Rect& part) {
     const Picture colors{.file = asked.candidate.file, .targets = {colors_of(asked.candidate)}};
@@ -151,14 +161,11 @@ bool is_picture_of(const peeling::FrameRequest& input, const peeling::Algorithm&
     const auto square = rasterizer::intersection(part, {0, 0, input.options.width, input.options.height});
     for (const bool is_whole : {false, true}) {
         peeling::RenderOptions options = input.options;
-        options.audit = options.keep_layers = false;
         if (!is_whole) options = verdict::scissored(options, square);
-        const auto run = peeling::Renderer{input.list, input.view, input.profile, options}.render(algorithm);
-        if (run.outcome == peeling::Outcome::refused) return false;
-        Picture own{.file = "", .targets = {as_target(run.frame.color, "color")}};
-        own.targets[0].alpha_form = AlphaForm::premultiplied;
+        const auto own = own_picture(input.with(options), algorithm);
+        if (!own) return false;
         const Picture& seen = is_whole ? colors : cut(colors, square);
-        if (!is_seen(is_whole ? own : cut(own, square), seen, input.space, asked)) return false;
+        if (!is_seen(is_whole ? *own : cut(*own, square), seen, input.space, asked)) return false;
     }
     return true;
 }

@@ -43,6 +43,10 @@ inline constexpr std::size_t most_pixels_of_emulations = std::size_t{1} << 18;
                                                                 pipeline::ColorSpace space,
                                                                 const peeling::Algorithm& algorithm);
 
+// The colours of the right run; empty if it is refused.
+[[nodiscard]] std::optional<Picture> own_picture(const peeling::FrameRequest& input,
+                                                 const peeling::Algorithm& algorithm);
+
 // True if the right run has the picture; false, too, if it is refused.
 [[nodiscard]] bool is_picture_of(const peeling::FrameRequest& input, const peeling::Algorithm& algorithm,
                                  const AskedPicture& asked, const rasterizer::Rect& part);

@@ -9,39 +9,38 @@
 
 namespace strata::oracle::program {
 
-const std::vector<Lookup>& lookups() {
-    static const std::vector<Lookup> all = [] {
-        std::vector<Lookup> made{
-            {.words = "upside down", .price = 4, .mirrors_y = true},
-            {.words = "mirrored", .price = 4, .mirrors_x = true},
-            {.words = "turned by half a turn", .price = 5, .mirrors_x = true, .mirrors_y = true},
-            {.words = "at the first pixel of each block of 2 x 2", .price = 5, .is_half_size = true},
-            {.words = "half a texel to the left and up, filtered", .right = -1, .down = -1, .is_filtered = true},
-            {.words = "half a texel to the right and down, filtered", .right = 1, .down = 1, .is_filtered = true},
-            {.words = "half a texel to the left and down, filtered", .right = -1, .down = 1, .is_filtered = true},
-            {.words = "half a texel to the right and up, filtered", .right = 1, .down = -1, .is_filtered = true},
-            {.words = "half a texel to the left, filtered", .right = -1, .is_filtered = true},
-            {.words = "half a texel to the right, filtered", .right = 1, .is_filtered = true},
-            {.words = "half a texel up, filtered", .down = -1, .is_filtered = true},
-            {.words = "half a texel down, filtered", .down = 1, .is_filtered = true},
-            {.words = "one pixel to the left", .right = -1},
-            {.words = "one pixel to the right", .right = 1},
-            {.words = "one pixel above", .down = -1},
-            {.words = "one pixel below", .down = 1},
-            {.words = "one pixel to the left and above", .right = -1, .down = -1},
-            {.words = "one pixel to the right and below", .right = 1, .down = 1},
-            {.words = "one pixel to the left and below", .right = -1, .down = 1},
-            {.words = "one pixel to the right and above", .right = 1, .down = -1},
-            {.words = "two pixels to the left", .right = -2},
-            {.words = "two pixels to the right", .right = 2},
-            {.words = "two pixels above", .down = -2},
-            {.words = "two pixels below", .down = 2},
-        };
-        for (Lookup& lookup : made) lookup.price = std::max(lookup.price, 6.0);
-        return made;
-    }();
-    return all;
-}
+namespace {
+
+const Lookup table[] = {
+    {.words = "upside down", .mirrors_y = true},
+    {.words = "mirrored", .mirrors_x = true},
+    {.words = "turned by half a turn", .mirrors_x = true, .mirrors_y = true},
+    {.words = "at the first pixel of each block of 2 x 2", .is_half_size = true},
+    {.words = "half a texel to the left and up, filtered", .right = -1, .down = -1, .is_filtered = true},
+    {.words = "half a texel to the right and down, filtered", .right = 1, .down = 1, .is_filtered = true},
+    {.words = "half a texel to the left and down, filtered", .right = -1, .down = 1, .is_filtered = true},
+    {.words = "half a texel to the right and up, filtered", .right = 1, .down = -1, .is_filtered = true},
+    {.words = "half a texel to the left, filtered", .right = -1, .is_filtered = true},
+    {.words = "half a texel to the right, filtered", .right = 1, .is_filtered = true},
+    {.words = "half a texel up, filtered", .down = -1, .is_filtered = true},
+    {.words = "half a texel down, filtered", .down = 1, .is_filtered = true},
+    {.words = "one pixel to the left", .right = -1},
+    {.words = "one pixel to the right", .right = 1},
+    {.words = "one pixel above", .down = -1},
+    {.words = "one pixel below", .down = 1},
+    {.words = "one pixel to the left and above", .right = -1, .down = -1},
+    {.words = "one pixel to the right and below", .right = 1, .down = 1},
+    {.words = "one pixel to the left and below", .right = -1, .down = 1},
+    {.words = "one pixel to the right and above", .right = 1, .down = -1},
+    {.words = "two pixels to the left", .right = -2},
+    {.words = "two pixels to the right", .right = 2},
+    {.words = "two pixels above", .down = -2},
+    {.words = "two pixels below", .down = 2},
+};
+
+}  // namespace
+
+std::span<const Lookup> lookups() { return table; }
 
 void PixelPlaces::read(const Lookup& lookup, const ListPixel& pixel, std::vector<std::size_t>& found) const {
     found.clear();
@@ -204,9 +203,9 @@ std::vector<OtherLists> other_lookups(const Lists& given) {
     const auto ask = [&](const Lookup& lookup, const LayerChoice* choice, const std::string& words, double price) {
         Lookup place = lookup;
         const auto make = [&](std::size_t step) { return read_by(places, place, choice, step); };
-        if (!cheap.add(words, price + lookup.price, make) || !lookup.moves()) return;
+        if (!cheap.add(words, price + price_of_lookup, make) || !lookup.moves()) return;
         place.clamps = false;
-        cheap.add(words, price + lookup.price, make);
+        cheap.add(words, price + price_of_lookup, make);
     };
     for (const Lookup& lookup : lookups()) {
         for (const LayerChoice& choice : layer_choices())

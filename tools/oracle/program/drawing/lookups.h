@@ -5,6 +5,7 @@
 //          nothing.
 // Tests    tests/tools/oracle/program/drawing_test.cpp
 #pragma once
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -14,14 +15,14 @@ namespace strata::oracle::program {
 
 struct Lookup {
     std::string_view words{};  // "upside down"
-    double price = 0;
     int right = 0, down = 0;
     bool mirrors_x = false, mirrors_y = false, is_half_size = false;
     bool is_filtered = false;  // half of `right` and `down`
     bool clamps = true;
     [[nodiscard]] bool moves() const noexcept { return right != 0 || down != 0; }
 };
-[[nodiscard]] const std::vector<Lookup>& lookups();
+[[nodiscard]] std::span<const Lookup> lookups();
+inline constexpr double price_of_lookup = 6;
 
 // Some layers of every pixel.
 struct LayerChoice {

@@ -42,7 +42,7 @@ struct Peel {
     std::size_t passes = 0;
 
     [[nodiscard]] double price() const {
-        return 3 + (place ? place->price : 0) + (depth.bits != 0 ? 5 : 0) + (finds_again ? 2 : 0) +
+        return 3 + (place ? price_of_lookup : 0) + (depth.bits != 0 ? 5 : 0) + (finds_again ? 2 : 0) +
                (is_from_back ? 2 : 0) + (ago != 1 ? 3 : 0) + (keeps_layer ? 2 : 0) + (takes_last ? 1 : 0) +
                (keeps_ties ? 1 : 0);
     }
