@@ -2,13 +2,17 @@
 // every picture: by a mistake that it chooses, or by changing lists or codes itself.
 #include "tools/oracle/judge/judge.h"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/oracle/verdict/wrong_ports.h"
 #include "tools/oracle/emulations/catalogue.h"
 #include "tools/oracle/emulations/mistake_renderer.h"
+#include "tools/oracle/fragments/fragments.h"
 
 using namespace strata;
 using namespace strata::test;
@@ -99,6 +103,26 @@ TEST_CASE("a picture in 6 bits and one that is the mean of two rows are named") 
     for (std::size_t i = 0; i + row < mean.codes.size(); ++i)
         mean.codes[i] = (right.codes[i] + right.codes[i + row] + 1) / 2;
     CHECK(scene.sentence_of(mean) == "wrong: every pixel is the mean of itself and the one below");
+}
+
+TEST_CASE("faces of one side that are drawn before those of the other are named") {
+    const SmallScene scene;
+    const oracle::verdict::SceneFragments fragments{scene.opened.input(), scene.opened.options.fragment_memory};
+    std::map<std::uint32_t, bool> is_front;
+    fragments.for_each_tile([&](const oracle::verdict::TileLists& tile) {
+        for (std::size_t p = 0; p < tile.rect.area(); ++p)
+            for (const auto& f : fragments.at(tile, p).visible) is_front[f.primitive] = f.is_front_facing;
+    });
+    for (const bool has_front_first : {false, true}) {
+        // The last drawn is on top, that is, first in the list. The scene has one instance.
+        const auto drawn = [&](const CapturedFragment& f) {
+            return std::pair{is_front.at(f.primitive) != has_front_first, f.primitive};
+        };
+        CHECK(scene.sentence_of(scene.port([&](PortList& l) {
+            std::ranges::sort(l.visible, std::ranges::greater{}, drawn);
+        })) == fmt::format("wrong: layers are composited in the order of drawing (as submitted, {}): nothing is sorted",
+                           has_front_first ? "all front faces first" : "back faces of each instance first"));
+    }
 }
 
 TEST_CASE("layers that are blended eight times and ones of a colour are named") {
