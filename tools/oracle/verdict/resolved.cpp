@@ -301,7 +301,6 @@ std::optional<ResolvedVerdict> judged(const Samples& samples, const Colors& cand
                                       const std::vector<std::uint32_t>& first, std::size_t most_wrong,
                                       const std::optional<rasterizer::Rect>& within = {}) {
     constexpr std::size_t few = 64, few_added = 32;
-    constexpr int most_tries = 6;
     const std::vector<ResolvedPixel> pixels = pixels_of(samples, candidate, within);
     const std::vector<Hypothesis> all = hypotheses(storage_of(candidate.code()));
     std::vector<const ResolvedPixel*> some = deepest(pixels, few);
@@ -314,13 +313,13 @@ std::optional<ResolvedVerdict> judged(const Samples& samples, const Colors& cand
     StackMaker maker{samples[0]->setting()};
     std::optional<SamplesAccount> account = closest(all, candidate, some, maker, std::min(most_wrong, some.size()));
     if (!account) return std::nullopt;
-    ResolvedVerdict best = checked(*account, candidate, pixels, maker);
-    // If no hypothesis explains these pixels, none explains the picture.
-    for (int i = 1; i < most_tries && account->wrong == 0 && !best.is_right(); ++i) {
-        add_some(best.wrong_pixels);
+    ResolvedVerdict best = checked(*account, candidate, pixels, maker), last = best;
+    // Every step excludes a hypothesis at least. If none explains these pixels, none explains the picture.
+    while (account->wrong == 0 && !best.is_right()) {
+        add_some(last.wrong_pixels);
         account = closest(all, candidate, some, maker, some.size());
-        ResolvedVerdict next = checked(*account, candidate, pixels, maker);
-        if (next.wrong_pixels.size() < best.wrong_pixels.size()) best = std::move(next);
+        last = checked(*account, candidate, pixels, maker);
+        if (last.wrong_pixels.size() < best.wrong_pixels.size()) best = last;
     }
     if (best.is_right()) best.alpha = checked_alpha(*account, candidate, pixels, maker, samples[0]->setting());
     return best;

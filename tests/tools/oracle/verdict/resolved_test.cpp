@@ -2,7 +2,9 @@
 // samples are rendered and rounded step by step.
 #include "tools/oracle/verdict/resolved.h"
 
+#include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 #include "peeling/render.h"
@@ -28,8 +30,8 @@ oracle::TargetImage resolved(const OpenedScene& opened, const std::string& algor
     return oracle::as_target(renderer.render(*peeling::find_algorithm(algorithm)).frame.color, "color");
 }
 
-ResolvedVerdict judged_samples(const OpenedScene& opened, const oracle::TargetImage& picture) {
-    std::vector<std::unique_ptr<SceneFragments>> all;
+Samples samples_of(const OpenedScene& opened) {
+    Samples all;
     for (std::size_t number = 0; number < samples; ++number) {
         peeling::RenderOptions options = opened.options;
         pipeline::set_sample(options.raster, opened.profile.sample_positions, samples, number);
@@ -37,7 +39,34 @@ ResolvedVerdict judged_samples(const OpenedScene& opened, const oracle::TargetIm
             peeling::FrameRequest{opened.scene.list, opened.view, opened.profile, options},
             std::numeric_limits<std::uint64_t>::max()));
     }
-    return judge_resolved(all, Colors{picture});
+    return all;
+}
+ResolvedVerdict judged_samples(const OpenedScene& opened, const oracle::TargetImage& picture) {
+    return judge_resolved(samples_of(opened), Colors{picture});
+}
+
+// The picture of a port that composites every sample in binary64 and rounds only the mean.
+oracle::TargetImage rounded_once(const OpenedScene& opened, const Samples& lists) {
+    oracle::TargetImage picture = resolved(opened, "a_buffer", pipeline::Format::rgba8);
+    const auto width = static_cast<std::size_t>(picture.width);
+    for (int y = 0; y < opened.options.height; ++y)
+        for (int x = 0; x < opened.options.width; ++x) {
+            std::array<double, 3> sum{};
+            const PixelList place = lists[0]->list_at(x, y);
+            for (const auto& sample : lists) {
+                const PixelList list = sample->list_at(x, y);
+                std::array<double, 3> color{list.behind[0], list.behind[1], list.behind[2]};
+                for (auto f = list.visible.rbegin(); f != list.visible.rend(); ++f)
+                    for (std::size_t c = 0; c < 3; ++c)
+                        color[c] = double{f->color[3]} * f->color[c] + (1 - double{f->color[3]}) * color[c];
+                for (std::size_t c = 0; c < 3; ++c) sum[c] += color[c] / samples;
+            }
+            const std::size_t first =
+                (static_cast<std::size_t>(place.y) * width + static_cast<std::size_t>(place.x)) * 4;
+            for (std::size_t c = 0; c < 3; ++c)
+                picture.codes[first + c] = static_cast<std::uint32_t>(std::floor(sum[c] * 255 + 0.5));
+        }
+    return picture;
 }
 
 }  // namespace
@@ -81,4 +110,17 @@ TEST_CASE("a port with one sample per pixel is wrong at edges only and one that 
     const ResolvedVerdict early = judged_samples(deep, resolved(deep, "front_to_back", pipeline::Format::rgba8, 1));
     CHECK_FALSE(early.is_right());
     CHECK(early.wrong_at_edges < early.wrong_pixels.size());
+}
+
+// Several hypotheses of narrow intervals hold all of the pixels that are tried first. A background in the middle
+// between two codes is what separates them.
+TEST_CASE("a port that rounds the mean alone is right over a background in the middle between two codes") {
+    for (const std::string scene : {"showroom", "random:seed=24,triangles=6"}) {
+        OpenedScene opened{scene, 64, 48};
+        opened.options.background = {0.9f, 0.9f, 0.8f, 1};
+        const Samples lists = samples_of(opened);
+        const ResolvedVerdict verdict = judge_resolved(lists, Colors{rounded_once(opened, lists)});
+        INFO(scene << ": " << to_text(verdict));
+        CHECK(verdict.is_right());
+    }
 }
