@@ -111,6 +111,24 @@ SampleColor peeled_resolved(const SamplePixelLists& pixel, DepthResolve resolve)
     return front.over(mean_of(pixel.behind));
 }
 
+SampleColor composited_resolved(const SamplePixelLists& pixel) {
+    FrontSum front;
+    std::size_t most = 0;
+    for (const auto& list : pixel.lists) most = std::max(most, list.size());
+    const auto count = static_cast<double>(pixel.lists.size());
+    for (std::size_t k = 0; k < most; ++k) {
+        SampleColor layer{};
+        double alpha = 0;
+        for (const auto& list : pixel.lists) {
+            if (k >= list.size()) continue;
+            for (std::size_t c = 0; c < 3; ++c) layer[c] += list[k].color[c] / count;
+            alpha += list[k].alpha / count;
+        }
+        front.add(layer, alpha);
+    }
+    return front.over(mean_of(pixel.behind));
+}
+
 namespace {
 
 struct SampleHabit {
@@ -120,6 +138,7 @@ struct SampleHabit {
 const SampleHabit habits[] = {
     {"a fragment covers the whole pixel: the samples that it covers are not kept in its list", without_mask},
     {"a fragment covers the whole pixel with its alpha times its share of covered samples", by_shares},
+    {"layers are peeled by samples, but resolved before they are composited", composited_resolved},
     {"layers are resolved before the next peel, which compares with the mean of the samples' depths",
      [](const SamplePixelLists& pixel) { return peeled_resolved(pixel, DepthResolve::mean); }},
     {"layers are resolved before the next peel, which compares with the first sample's depth",

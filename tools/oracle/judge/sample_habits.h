@@ -40,6 +40,8 @@ struct SamplePixelLists {
 enum class DepthResolve : std::uint8_t { mean, first_sample, nearest, farthest };
 // Layers and their depths are resolved after every pass.
 [[nodiscard]] SampleColor peeled_resolved(const SamplePixelLists& pixel, DepthResolve resolve);
+// Layers are peeled by samples, and each is resolved before they are composited.
+[[nodiscard]] SampleColor composited_resolved(const SamplePixelLists& pixel);
 
 struct NamedHabit {
     std::string words{};

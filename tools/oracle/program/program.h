@@ -51,6 +51,7 @@ struct StepEntry {
     // round.
     bool (*is_plausible)(Parameters parameters) = nullptr;
     bool is_continuous = false;  // the parameter is fitted
+    bool is_threshold = false;   // the parameter is compared with a transmittance, which a port rounds
     bool is_order = false;       // acts on the selected fragments together
     void (*edit)(PortLayers& layers, const SelectedFragments& selection, Parameters parameters) = nullptr;
     Color (*recolor)(const Color& color, Parameters parameters) = nullptr;

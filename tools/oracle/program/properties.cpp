@@ -27,6 +27,10 @@ template <int n>
 double y_modulo(const ListPixel& p, std::size_t) {
     return p.y % n;
 }
+template <int n>
+double triangle_modulo(const ListPixel& p, std::size_t k) {
+    return at(p, k).primitive % n;
+}
 double gap_before(const ListPixel& p, std::size_t k) { return k == 0 ? none : at(p, k).depth - at(p, k - 1).depth; }
 double gap_behind(const ListPixel& p, std::size_t k) {
     return k + 1 == p.fragments.size() ? none : gap_before(p, k + 1);
@@ -129,17 +133,28 @@ const FragmentProperty table[] = {
      .kind = Kind::integer,
      .price = 4,
      .of = [](const ListPixel& p, std::size_t k) { return static_cast<double>(at(p, k).material); }},
+    {.name = "triangles of odd number",
+     .no = "triangles of even number",
+     .kind = Kind::flag,
+     .price = 5,
+     .of = triangle_modulo<2>},
+    {.name = "triangle number modulo 3", .kind = Kind::integer, .price = 6, .of = triangle_modulo<3>},
+    {.name = "triangle number",
+     .kind = Kind::integer,
+     .price = 6,
+     .of = [](const ListPixel& p, std::size_t k) { return static_cast<double>(at(p, k).primitive); }},
     {.name = "ones drawn after the one before them",
      .no = "ones drawn earlier than the one before them",
      .kind = Kind::flag,
      .price = 6,
      .of = [](const ListPixel& p,
               std::size_t k) { return k > 0 && at(p, k).submission > at(p, k - 1).submission ? 1. : 0.; }},
-    {.name = "transmittance before", .price = 6, .of = through_before},
+    {.name = "transmittance before", .price = 6, .of = through_before, .is_rounded = true},
     {.name = "transmittance behind",
      .price = 6,
-     .of = [](const ListPixel& p, std::size_t k) { return through_before(p, k + 1); }},
-    {.name = "sum of alphas before", .price = 6, .of = alpha_before},
+     .of = [](const ListPixel& p, std::size_t k) { return through_before(p, k + 1); },
+     .is_rounded = true},
+    {.name = "sum of alphas before", .price = 6, .of = alpha_before, .is_rounded = true},
     {.name = "node number in all lists",
      .kind = Kind::integer,
      .price = 6,
@@ -153,7 +168,8 @@ const FragmentProperty table[] = {
      .of = [](const ListPixel& p, std::size_t) { return static_cast<double>(p.fragments.size() % 2); }},
     {.name = "total transmittance",
      .is_of_pixel = true,
-     .of = [](const ListPixel& p, std::size_t) { return through_before(p, p.fragments.size()); }},
+     .of = [](const ListPixel& p, std::size_t) { return through_before(p, p.fragments.size()); },
+     .is_rounded = true},
     {.name = "an opaque surface behind",
      .no = "no opaque surface behind",
      .kind = Kind::flag,

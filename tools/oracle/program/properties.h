@@ -23,6 +23,7 @@ struct FragmentProperty {
     bool is_of_pixel = false;
     double price = 5;
     double (*of)(const ListPixel& pixel, std::size_t k);  // k: the fragment; not used by properties of a pixel
+    bool is_rounded = false;  // a port rounds it in every blend: near a threshold it may hold or not
 };
 
 [[nodiscard]] std::span<const FragmentProperty> properties();

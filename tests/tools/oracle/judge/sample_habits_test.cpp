@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 using strata::oracle::by_shares;
+using strata::oracle::composited_resolved;
 using strata::oracle::DepthResolve;
 using strata::oracle::peeled_resolved;
 using strata::oracle::SampleColor;
@@ -64,6 +65,11 @@ TEST_CASE("a peel that compares with the nearest or farthest depth of the sample
     check_color(peeled_resolved(apart, DepthResolve::nearest), {0.25 + second + third, 0.25, 0.25 * 0.75});
     // The farthest is 0.3, behind which red at 0.9 is left at one of two samples.
     check_color(peeled_resolved(apart, DepthResolve::farthest), {0.25 + 0.5 * 0.25, 0.25, 0.5 * 0.75});
+}
+
+TEST_CASE("layers that are peeled by samples and resolved one by one hide less than the samples do") {
+    // The first layer is red at one sample and green at the other; the second one is green at one of them.
+    check_color(composited_resolved({{{red(0.2), green(0.5)}, {green(0.3)}}, {sky, sky}}), {0.25, 0.375, 0.375});
 }
 
 TEST_CASE("alphas times their share of samples hide less than the samples that are covered") {

@@ -280,6 +280,12 @@ TEST_CASE("sides that are exchanged, and layers without fog, are named") {
     for (auto& material : opened.scene.list.materials) std::swap(material.front, material.back);
     CHECK(judged_by(opened, *exchanged) == "wrong: all layers have the colours of their other side");
 
+    const auto sides = opened.scene.list.materials;
+    for (auto& material : opened.scene.list.materials) material.back = material.front;
+    const auto of_one_side = opened.picture("front_to_back", strata::pipeline::Format::rgba8);
+    opened.scene.list.materials = sides;
+    CHECK(judged_by(opened, *of_one_side) == "wrong: all layers have the colours of their front");
+
     const Lists without = lists_of(opened.fragments(), strata::oracle::verdict::Colors{*exchanged}, true);
     opened.options.fog = strata::pipeline::Fog{.start = 10, .end = 18, .color = {0.6f, 0.6f, 0.9f, 1}};
     const Lists with = lists_of(opened.fragments(), strata::oracle::verdict::Colors{*exchanged}, true);
@@ -302,4 +308,15 @@ TEST_CASE("sides that are exchanged, and layers without fog, are named") {
     };
     CHECK(judged_by(opened, painted_from(with, without, fogged_at_end)) ==
           "wrong: the finished pixel has the fog of its nearest layer, where each layer is to have its own");
+    const auto fog_in_alpha = [](const ListPixel& given, const ListPixel& other) {
+        PortColor color = given.behind;
+        for (std::size_t k = given.fragments.size(); k-- > 0;) {
+            const double fogged = given.fragments[k].color[2], bare = other.fragments[k].color[2];
+            const double share = (fogged - bare) / (double{0.9f} - bare);
+            blend_over(color, given.fragments[k].color, given.fragments[k].alpha * (1 - share));
+        }
+        return color;
+    };
+    CHECK(judged_by(opened, painted_from(with, without, fog_in_alpha)) ==
+          "wrong: alphas are multiplied by the factor of the fog, too");
 }

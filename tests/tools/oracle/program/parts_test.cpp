@@ -64,7 +64,7 @@ TEST_CASE("properties of a fragment are those of its place in the list") {
     std::vector<ListFragment> f(3);
     f[0] = {.alpha = 0.5, .depth = 0.25, .code = 4, .submission = 2};
     f[1] = {.color = {0.1, 0.7, 0.2}, .alpha = 0.25, .depth = 0.26, .code = 5, .submission = 0};
-    f[2] = {.alpha = 0.1, .depth = 0.75, .code = 5, .submission = 1};
+    f[2] = {.alpha = 0.1, .depth = 0.75, .code = 5, .submission = 1, .primitive = 7};
     const ListPixel pixel{.x = 5, .y = 2, .first = 100, .fragments = f};
     const auto of = [&](std::string_view name, std::size_t k) { return property_named(name).of(pixel, k); };
     CHECK(of("rank from the back", 0) == 2);
@@ -76,6 +76,9 @@ TEST_CASE("properties of a fragment are those of its place in the list") {
     CHECK(std::isinf(of("distance in depth behind the one before", 0)));
     CHECK(of("number of bits of depth shared with the one before", 1) == 6);  // 16/64 to 17/64
     CHECK(of("ones at the depth of the one before", 2) == 1);
+    CHECK(of("triangle number", 2) == 7);
+    CHECK(of("triangles of odd number", 2) == 1);
+    CHECK(of("triangle number modulo 3", 2) == 1);
     CHECK(of("mostly green ones", 1) == 1);
     CHECK(of("transmittance before", 2) == Approx(0.375));
     CHECK(of("transmittance behind", 0) == Approx(0.5));

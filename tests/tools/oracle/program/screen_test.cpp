@@ -89,6 +89,13 @@ TEST_CASE("what became of the place of pixels is named") {
          [](const At& at, int x, int y) { return at(x / 2 * 2, y / 2 * 2); }},
         {"blocks of 2 x 2 pixels show their mean",
          [](const At& at, int x, int y) { return mean_of(at, x / 2 * 2, y / 2 * 2, 2, 2); }},
+        {"tiles of 8 x 8 pixels are transposed",
+         [](const At& at, int x, int y) { return at(x / 8 * 8 + y % 8, y / 8 * 8 + x % 8); }},
+        {"rows are 66 pixels apart in memory and are read as if 64",
+         [](const At& at, int x, int y) {
+             const int address = 64 * y + x;
+             return at(address % 66, address / 66);
+         }},
         {"every pixel is the mean of 2 x 2 pixels down and right: half a texel off",
          [](const At& at, int x, int y) { return mean_of(at, x, y, 2, 2); }},
         {"every pixel is the mean of 3 x 3 pixels: a blur",

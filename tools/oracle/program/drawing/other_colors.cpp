@@ -31,6 +31,8 @@ const ColorChange changes_of_color[] = {
      [](pipeline::DrawList&, peeling::RenderOptions& options) { return std::exchange(options.fog, {}).has_value(); }},
     {"have the colours of their other side", "has the colour of its other side",
      of_materials<[](pipeline::Material& m) { std::swap(m.front, m.back); }>},
+    {"have the colours of their front", "has the colour of its front",
+     of_materials<[](pipeline::Material& m) { m.back = m.front; }>},
     {"have no light", "has no light", of_materials<[](pipeline::Material& m) { m.unlit = true; }>},
     {"have no texture", "has no texture", of_materials<[](pipeline::Material& m) { m.texture = -1; }>},
 };
@@ -74,6 +76,20 @@ Lists with_fog_at_end(const Lists& given, const Lists& clear, const Color& fog, 
     return made;
 }
 
+// Alphas are multiplied by the factor of the fog, too.
+Lists with_fog_in_alpha(const Lists& given, const Lists& clear, const Color& fog, std::size_t step) {
+    Lists made = empty_like(given);
+    for (std::size_t i = 0; i < given.pixels.size(); i += step) {
+        add_like(given.pixels[i], made);
+        for (std::size_t k = 0; k < given.pixels[i].fragments.size(); ++k) {
+            ListFragment& layer = made.fragments.emplace_back(given.pixels[i].fragments[k]);
+            layer.alpha *= 1 - share_of(fog, layer.color, clear.pixels[i].fragments[k].color);
+        }
+    }
+    complete(made);
+    return made;
+}
+
 bool are_alike(const Lists& a, const Lists& b) {
     return std::ranges::equal(a.pixels, b.pixels, [](const ListPixel& x, const ListPixel& y) {
         return x.x == y.x && x.y == y.y && x.fragments.size() == y.fragments.size();
@@ -100,6 +116,8 @@ std::vector<OtherLists> other_colors(const peeling::FrameRequest& input, const L
         if (!input.options.fog || options.fog) continue;
         const Rgba& of_fog = input.options.fog->color;
         const Color fog{double{of_fog[0]}, double{of_fog[1]}, double{of_fog[2]}};
+        cheap.add("alphas are multiplied by the factor of the fog, too", 5,
+                  [&](std::size_t step) { return with_fog_in_alpha(given, colors, fog, step); });
         for (const bool is_nearest : {true, false})
             cheap.add(fmt::format("the finished pixel has the fog of its {} layer, where each layer is to have its own",
                                   is_nearest ? "nearest" : "farthest"),

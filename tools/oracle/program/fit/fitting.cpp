@@ -40,7 +40,7 @@ std::vector<Proof> search_and_prove(const Lists& lists, const Program& base, con
 bool says_the_same(const Program& a, const Program& b) {
     return std::ranges::equal(a.edits, b.edits, [](const Edit& x, const Edit& y) {
         return x.entry == y.entry &&
-               std::ranges::equal(x.conditions, y.conditions, {}, &Condition::property, &Condition::property);
+               std::ranges::is_permutation(x.conditions, y.conditions, {}, &Condition::property, &Condition::property);
     });
 }
 

@@ -10,6 +10,11 @@ namespace strata::oracle::program {
 
 namespace {
 
+bool is_beyond(const Lists& lists, const Program& program, const PortRounding& rounding, const ListPixel& pixel) {
+    const Color off = residual_of(program, pixel, rounding, lists.unit()).off;
+    return std::ranges::any_of(off, [&](double v) { return std::fabs(v) > bound_at(pixel); });
+}
+
 // The share of wrong pixels that are repaired, and of right ones that are broken.
 struct Moved {
     double repaired = 0, broken = 0;
@@ -18,19 +23,40 @@ struct Moved {
 Moved moved(const Lists& lists, const Program& program, const Fitness& fitness, const Lists& given,
             const Fitness& right) {
     double wrong = 0, repaired = 0, good = 0, broken = 0;
-    const auto is_beyond = [&](const Program& p, const PortRounding& r, const ListPixel& pixel) {
-        const Color off = residual_of(p, pixel, r, lists.unit()).off;
-        return std::ranges::any_of(off, [&](double v) { return std::fabs(v) > bound_at(pixel); });
-    };
     for (std::size_t i = 0; i < lists.pixels.size(); ++i) {
         const ListPixel& pixel = lists.pixels[i];
-        const bool was_wrong = is_beyond({}, right.rounding, given.pixels[i]),
-                   is_wrong = is_beyond(program, fitness.rounding, pixel);
+        const bool was_wrong = is_beyond(lists, {}, right.rounding, given.pixels[i]),
+                   is_wrong = is_beyond(lists, program, fitness.rounding, pixel);
         (was_wrong ? wrong : good) += 1;
         if (was_wrong && !is_wrong) repaired += 1;
         if (!was_wrong && is_wrong) broken += 1;
     }
     return {wrong > 0 ? repaired / wrong : 0, good > 0 ? broken / good : 0};
+}
+
+// The program with each threshold that is compared with what a port rounds a little lower, and a little higher.
+std::vector<Program> with_moved_thresholds(const Program& program, double by) {
+    std::vector<Program> all;
+    for (std::size_t e = 0; e < program.edits.size(); ++e) {
+        const Edit& edit = program.edits[e];
+        for (const double d : {-by, by}) {
+            for (std::size_t i = 0; i < edit.conditions.size(); ++i)
+                if (edit.conditions[i].property->is_rounded)
+                    all.emplace_back(program).edits[e].conditions[i].threshold += d;
+            if (edit.entry->is_threshold) all.emplace_back(program).edits[e].parameters[0] += d;
+        }
+    }
+    return all;
+}
+
+// The pixels beyond that one of these programs explains.
+std::uint64_t open_pixels(const Lists& lists, const Program& program, const PortRounding& rounding) {
+    const std::vector<Program> moved = with_moved_thresholds(program, 2 * lists.unit());
+    if (moved.empty()) return 0;
+    return static_cast<std::uint64_t>(std::ranges::count_if(lists.pixels, [&](const ListPixel& pixel) {
+        return is_beyond(lists, program, rounding, pixel) &&
+               std::ranges::any_of(moved, [&](const Program& p) { return !is_beyond(lists, p, rounding, pixel); });
+    }));
 }
 
 }  // namespace
@@ -42,7 +68,9 @@ Proof prove(const Lists& lists, const Program& program, const Fitness& right, co
     const double most = std::max(2.0, 0.002 * static_cast<double>(f.covered));
     // Where many layers are blended, rounding alone costs more.
     const bool is_cheap = f.bits_per_covered() < 1.5 || (is_narrow(f) && proof.cost < 0.1 * right.bits);
-    proof.is_whole = static_cast<double>(f.beyond) <= most && f.mean < 1 && f.slope < 0.35 && is_cheap &&
+    if (static_cast<double>(f.beyond) > most && 20 * f.beyond <= f.covered)
+        proof.open = open_pixels(lists, program, f.rounding);
+    proof.is_whole = static_cast<double>(f.beyond - proof.open) <= most && f.mean < 1 && f.slope < 0.35 && is_cheap &&
                      proof.cost < 0.6 * right.bits;
     // A free fit of several parameters comes near to anything: it explains only by round numbers.
     const bool is_loose = std::ranges::any_of(program.edits, [&](const Edit& edit) {
@@ -85,8 +113,11 @@ std::optional<Condition> separating(const FragmentProperty& property, const std:
     const bool is_number = property.kind == FragmentProperty::Kind::number;
     if (!is_number && low == high && !is_among_others) return Condition{&property, Is::equal, low};
     const auto between = [&](double a, double b) { return is_number ? shortest_between(a, b) : b; };
-    if (low > high_of_others) return Condition{&property, Is::at_least, between(high_of_others, low)};
-    if (high < low_of_others) return Condition{&property, Is::below, between(high, low_of_others)};
+    // Of "at least infinite" the rank says more.
+    if (low > high_of_others && std::isfinite(low))
+        return Condition{&property, Is::at_least, between(high_of_others, low)};
+    if (high < low_of_others && std::isfinite(low_of_others))
+        return Condition{&property, Is::below, between(high, low_of_others)};
     return std::nullopt;
 }
 

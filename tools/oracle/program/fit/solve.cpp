@@ -84,7 +84,8 @@ std::vector<Condition> conditions_of(const FragmentProperty& property, std::vect
         const auto at = std::ranges::lower_bound(distinct, end);
         if (at == distinct.begin()) continue;
         const double before = *(at - 1);
-        const double threshold = is_integer || !std::isfinite(*at) || !std::isfinite(before) ? *at : (*at + before) / 2;
+        if (!std::isfinite(*at) || !std::isfinite(before)) continue;  // its rank says that there is none
+        const double threshold = is_integer ? *at : (*at + before) / 2;
         all.push_back({&property, Is::below, threshold});
         all.push_back({&property, Is::at_least, threshold});
     }

@@ -71,13 +71,14 @@ std::string to_text(const Fitting& fitting) {
     std::string text = fitting.state == State::explained ? "wrong: " : "wrong, explained in part: ";
     for (std::size_t i = 0; i < fitting.found.size(); ++i) {
         const Proof& proof = fitting.found[i];
-        text +=
-            fmt::format("{}{}\n    {} of {} pixels are wrong then, {:.3g} bits per covered pixel instead of {:.3g}\n",
-                        i == 0           ? ""
-                        : proof.is_equal ? "  the same on this scene: "
-                                         : "  or: ",
-                        describe(proof.program), proof.fitness.beyond, proof.fitness.pixels,
-                        proof.fitness.bits_per_covered(), right.bits_per_covered());
+        text += fmt::format(
+            "{}{}\n    {} of {} pixels are wrong then{}, {:.3g} bits per covered pixel instead of {:.3g}\n",
+            i == 0           ? ""
+            : proof.is_equal ? "  the same on this scene: "
+                             : "  or: ",
+            describe(proof.program), proof.fitness.beyond, proof.fitness.pixels,
+            proof.open == 0 ? "" : fmt::format(" ({} of them are as near to the threshold as rounding)", proof.open),
+            proof.fitness.bits_per_covered(), right.bits_per_covered());
     }
     return text;
 }

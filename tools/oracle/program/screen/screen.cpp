@@ -52,6 +52,7 @@ std::vector<ScreenMap> explain_by_screen(const Lists& lists, const Fitness& righ
     ScreenProofs proofs{pictures};
     add_shifts(pictures, proofs);
     add_blocks(pictures, proofs);
+    add_addresses(pictures, proofs);
     add_weights(pictures, proofs);
     add_dithers(pictures, proofs);
     std::vector<ScreenMap> found = std::move(proofs).best();

@@ -2,10 +2,10 @@
 // a pattern of pixels?
 //
 // Rule     What the right program predicts is mapped: by a shift, also of some rows, columns or parts; by blocks of
-//          pixels that show one of them or their mean; by nine weights of a pixel's neighbours, fitted by least squares
-//          and rounded to parts of 16 or 9; by fewer codes with a dither of a period. A map explains a picture as a
-//          program does (prove.h). A picture whose pixels each show one layer, or what is behind, is told as that, with
-//          the period of the pattern.
+//          pixels that show one of them or their mean; by another pitch of rows, or tiles that are transposed; by nine
+//          weights of a pixel's neighbours, fitted by least squares and rounded to parts of 16 or 9; by fewer codes
+//          with a dither of a period. A map explains a picture as a program does (prove.h). A picture whose pixels each
+//          show one layer, or what is behind, is told as that, with the period of the pattern.
 // Tests    tests/tools/oracle/program/screen_test.cpp
 #pragma once
 #include <string>
@@ -51,6 +51,7 @@ class ScreenProofs {
 
 void add_shifts(const ScreenPictures& pictures, ScreenProofs& proofs);
 void add_blocks(const ScreenPictures& pictures, ScreenProofs& proofs);
+void add_addresses(const ScreenPictures& pictures, ScreenProofs& proofs);
 void add_weights(const ScreenPictures& pictures, ScreenProofs& proofs);
 void add_dithers(const ScreenPictures& pictures, ScreenProofs& proofs);
 void add_chosen_layers(const ScreenPictures& pictures, std::vector<ScreenMap>& found);

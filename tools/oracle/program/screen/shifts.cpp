@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "tools/oracle/program/fit/fitting.h"
 #include "tools/oracle/program/fit/solve.h"
@@ -169,7 +170,43 @@ void add_pairs(const ScreenPictures& p, int across, int down, std::string words,
     proofs.add(std::move(words), 8, mapped, std::vector<char>(mapped.size(), 1));
 }
 
+// What is read at address y * width + x of rows that are `pitch` pixels apart.
+void add_pitch(const ScreenPictures& p, int pitch, ScreenProofs& proofs) {
+    std::vector<Color> mapped;
+    std::vector<char> has_value;
+    for (int address = 0; address < p.width * p.height; ++address) {
+        const int x = address % pitch, y = address / pitch;
+        has_value.push_back(p.has(x, y) ? 1 : 0);
+        mapped.push_back(p.has(x, y) ? p.at(x, y) : Color{});
+    }
+    proofs.add(fmt::format("rows are {} pixels apart in memory and are read as if {}", pitch, p.width), 8, mapped,
+               has_value);
+}
+
+void add_transposed(const ScreenPictures& p, int size, ScreenProofs& proofs) {
+    std::vector<Color> mapped;
+    std::vector<char> has_value;
+    for (int y = 0; y < p.height; ++y)
+        for (int x = 0; x < p.width; ++x) {
+            const int from_x = x / size * size + y % size, from_y = y / size * size + x % size;
+            has_value.push_back(p.has(from_x, from_y) ? 1 : 0);
+            mapped.push_back(p.has(from_x, from_y) ? p.at(from_x, from_y) : Color{});
+        }
+    proofs.add(fmt::format("tiles of {0} x {0} pixels are transposed: x and y within a tile are exchanged", size), 8,
+               mapped, has_value);
+}
+
 }  // namespace
+
+void add_addresses(const ScreenPictures& pictures, ScreenProofs& proofs) {
+    std::set<int> pitches;
+    for (const int by : {-4, -3, -2, -1, 1, 2, 3, 4}) pitches.insert(pictures.width + by);
+    for (const int whole : {16, 32, 64, 128, 256}) pitches.insert((pictures.width + whole - 1) / whole * whole);
+    pitches.erase(pictures.width);
+    for (const int pitch : pitches)
+        if (pitch > 0) add_pitch(pictures, pitch, proofs);
+    for (const int size : {2, 4, 8, 16, 32}) add_transposed(pictures, size, proofs);
+}
 
 void add_blocks(const ScreenPictures& pictures, ScreenProofs& proofs) {
     add_pairs(pictures, 1, 0, "columns are exchanged in pairs", proofs);

@@ -37,9 +37,14 @@ double decode(double v, Parameters) { return decoded(v); }
 double quantised(double v, Parameters p) { return in_bits(v, p[0]); }
 double times(double v, Parameters p) { return v * p[0]; }
 double power(double v, Parameters p) { return std::pow(std::max(v, 0.0), p[0]); }
+double video(double v, Parameters) { return (16 + 219 * v) / 255; }
+double from_video(double v, Parameters) { return (255 * v - 16) / 219; }
+double scaled(double v, Parameters p) { return p[0] + p[1] * v; }
+std::vector<double> unscaled(double, double) { return {0, 1}; }
+bool is_scale(Parameters p) { return p[1] > 0.05 && std::fabs(p[0]) + std::fabs(p[1] - 1) > 0.02; }
 double at_most(double v, Parameters p) { return std::min(v, p[0]); }
 
-constexpr double greys[] = {0.25, 0.5, 0.75}, factors[] = {0.5, 0.75, 1.25, 2}, powers[] = {0.5, 1.5, 2},
+constexpr double greys[] = {0.25, 0.5, 0.75}, factors[] = {0.5, 0.75, 1.25, 2}, powers[] = {0.5, 1.5, 2, 2.2},
                  limits[] = {0.5, 0.75}, bits[] = {1, 2, 3, 4, 5, 6, 7};
 
 const StepEntry backgrounds[] = {
@@ -84,6 +89,18 @@ const StepEntry finishes[] = {
      .price = 10,
      .start = identity,
      .recolor = mixed},
+    {.step = PortStep::finish,
+     .words = "the picture is in video range: 0 is stored as 16, 255 as 235",
+     .recolor = each_channel<video>},
+    {.step = PortStep::finish,
+     .words = "the picture is taken for one in video range: 16 is stored as 0, 235 as 255",
+     .recolor = each_channel<from_video>},
+    {.step = PortStep::finish,
+     .words = "the picture's values are stored as {} + {} times them",
+     .price = 8,
+     .start = unscaled,
+     .is_plausible = is_scale,
+     .recolor = each_channel<scaled>},
     {.step = PortStep::finish, .words = "the picture is inverted", .recolor = each_channel<inverted>},
     {.step = PortStep::finish,
      .words = "the picture is rounded to {} bits",

@@ -49,6 +49,10 @@ void keep_some(Front& f, const PortLayer& layer, std::size_t k, Parameters p) {
     usual(f, layer, k, p);
     f.through = std::max(f.through, p[0]);
 }
+void stop(Front& f, const PortLayer& layer, std::size_t k, Parameters p) {
+    usual(f, layer, k, p);
+    if (f.through < p[0]) f.through = 0;
+}
 void wrap(Front& f, const PortLayer& layer, std::size_t, Parameters) {
     for (std::size_t c = 0; c < 3; ++c) {
         f.sum[c] += layer.alpha * layer.color[c];
@@ -103,6 +107,10 @@ double min_straight(double d, double s, double) { return std::min(d, s); }
 double multiply(double d, double s, double a) { return d * (1 - a + a * s); }
 double screen(double d, double s, double a) { return 1 - (1 - d) * (1 - a * s); }
 double difference(double d, double s, double a) { return std::fabs(s * a - d * (1 - a)); }
+double by_color(double d, double s, double a) { return s * a + d * (1 - s); }
+double by_color_straight(double d, double s, double) { return s + d * (1 - s); }
+double times_color(double d, double s, double a) { return s * a + d * s; }
+double multiply_straight(double d, double s, double) { return d * s; }
 double in_light(double d, double s, double a) { return encoded(decoded(d) * (1 - a) + decoded(s) * a); }
 
 // Back to front in codes of 8 bits that are not clamped.
@@ -198,6 +206,12 @@ Color in_few_bits(Stack layers, const Color& behind, const PortRounding&, Parame
 }
 constexpr double few_bits[] = {1, 2, 3, 4, 5, 6, 7}, shares[] = {0.05, 0.1, 0.2, 0.5, 0.75};
 
+constexpr StepEntry threshold_entry(std::string_view words, FoldFunction fold) {
+    StepEntry entry = fold_entry(words, 5, fold, shares, true);
+    entry.is_threshold = true;
+    return entry;
+}
+
 const StepEntry table[] = {
     fold_entry("layers are combined by MAX of premultiplied colours", 4, from_back<max>),
     fold_entry("layers are combined by MAX", 4, from_back<max_straight>),
@@ -205,6 +219,11 @@ const StepEntry table[] = {
     fold_entry("layers are combined by MIN", 4, from_back<min_straight>),
     fold_entry("layers multiply what is behind", 4, from_back<multiply>),
     fold_entry("layers are screened", 4, from_back<screen>),
+    fold_entry("layers multiply what is behind, whatever their alpha", 4, from_back<multiply_straight>),
+    fold_entry("what is behind is multiplied by 1 - colour (ONE_MINUS_SRC_COLOR)", 4, from_back<by_color>),
+    fold_entry("what is behind is multiplied by 1 - colour (ONE_MINUS_SRC_COLOR), colours not by alpha", 5,
+               from_back<by_color_straight>),
+    fold_entry("what is behind is multiplied by the colour (SRC_COLOR)", 4, from_back<times_color>),
     fold_entry("the blend subtracts", 5, from_back<difference>),
     fold_entry("every blend decodes and encodes sRGB", 5, from_back<in_light>),
     fold_entry("colours and background are decoded, blended in linear light and encoded", 5, in_linear_light),
@@ -225,13 +244,13 @@ const StepEntry table[] = {
     fold_entry("the transmittance is that of one layer earlier", 5, one_late),
     fold_entry("the transmittance is kept in {} bits", 5, from_front<keep_bits>, few_bits),
     fold_entry("the transmittance never falls below {}", 5, from_front<keep_some>, shares, true),
+    threshold_entry("once the transmittance is below {}, all that is behind is missing", from_front<stop>),
     fold_entry("the accumulated colour is clamped to {}", 5, from_front<clamp_sum>, shares, true),
     fold_entry("the sum of the layers wraps around at 1", 6, from_front<wrap>),
     fold_entry("the background is weighted by the square of the transmittance", 5, from_front<usual, squared>),
     fold_entry("the background is weighted by 1 - transmittance", 5, from_front<usual, inverted>),
     fold_entry("the background is added without its weight", 5, from_front<usual, unweighted>),
-    fold_entry("the background is missing where the transmittance is below {}", 5, from_front<usual, above>, shares,
-               true),
+    threshold_entry("the background is missing where the transmittance is below {}", from_front<usual, above>),
     fold_entry("the colour is divided by the alpha reached, without background", 5, divided),
     fold_entry("the accumulated colour is multiplied by the alpha reached", 5, multiplied_again),
     fold_entry("alpha is blended like a colour, and weights the background", 5, alpha_as_color),

@@ -104,6 +104,21 @@ void take(PortLayers& layers, const SelectedFragments& s, Parameters) {
     }
 }
 
+// Colours of the layers as far from the other end; alphas stay.
+void take_mirrored_color(PortLayers& layers, const SelectedFragments& s, Parameters) {
+    const PortLayers given = layers;
+    for (std::size_t i = 0; i < layers.size(); ++i)
+        if (s.has(layers[i])) layers[i].color = given[given.size() - 1 - i].color;
+}
+
+// Layers are stored one after another in an array of p[0], whose places are composited in their order.
+void wrap_around(PortLayers& layers, const SelectedFragments&, Parameters p) {
+    const auto places = static_cast<std::size_t>(p[0]);
+    for (std::size_t k = places; k < layers.size(); ++k) layers[k % places] = layers[k];
+    layers.resize(std::min(layers.size(), places));
+}
+constexpr double array_places[] = {2, 3, 4, 6, 8, 16};
+
 // The layer and the one before it become one with the MAX of each channel of their premultiplied colours.
 void merge_with_before(PortLayers& layers, const SelectedFragments& s, Parameters) {
     for (std::size_t i = layers.size(); i-- > 1;) {
@@ -153,6 +168,14 @@ const StepEntry table[] = {
     {.words = "have the alpha of the ones before", .price = 5, .edit = take<From::before, What::alpha>},
     {.words = "have the alpha of the ones behind", .price = 5, .edit = take<From::behind, What::alpha>},
     {.words = "have the alpha of the nearest", .price = 5, .edit = take<From::nearest, What::alpha>},
+    {.words = "have the colour of the ones at the same rank from the other end",
+     .price = 5,
+     .edit = take_mirrored_color},
+    {.words = "are kept in an array of {} layers, where later ones replace the first",
+     .price = 4,
+     .parameters = array_places,
+     .is_order = true,
+     .edit = wrap_around},
     {.words = "are merged with the ones before by MAX", .price = 6, .edit = merge_with_before},
 };
 

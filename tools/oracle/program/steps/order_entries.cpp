@@ -75,6 +75,10 @@ double material(const ListFragment& f, Parameters) {
 }
 double coarse(const ListFragment& f, Parameters p) { return std::floor(f.depth * std::exp2(p[0])); }
 double half(const ListFragment& f, Parameters) { return stored(PortFormat::half, f.depth); }
+template <int sign>
+double batch(const ListFragment& f, Parameters p) {
+    return sign * std::floor(f.submission / p[0]);
+}
 double triangle(const ListFragment& f, Parameters) { return f.triangle_depth; }
 
 // Bubble sort of the drawing order with some passes only.
@@ -86,6 +90,7 @@ void bubble(PortLayers& layers, const SelectedFragments& s, Parameters p) {
                 std::swap(layers[i], layers[i + 1]);
 }
 constexpr double passes[] = {1, 2};
+constexpr double batches[] = {2, 4, 8, 16};
 constexpr double bits[] = {2, 3, 4, 5, 6, 7, 8, 10, 12, 16};
 
 const StepEntry table[] = {
@@ -127,6 +132,16 @@ const StepEntry table[] = {
      .parameters = passes,
      .is_order = true,
      .edit = bubble},
+    {.words = "are sorted in batches of {} in drawing order only, the first batch in front",
+     .price = 5,
+     .parameters = batches,
+     .is_order = true,
+     .edit = sort<batch<1>>},
+    {.words = "are sorted in batches of {} in drawing order only, the last batch in front",
+     .price = 5,
+     .parameters = batches,
+     .is_order = true,
+     .edit = sort<batch<-1>>},
     {.words = "are rotated: the nearest becomes the farthest", .price = 6, .is_order = true, .edit = rotate<1>},
     {.words = "are rotated: the farthest becomes the nearest", .price = 6, .is_order = true, .edit = rotate<-1>},
     {.words = "have the far half in front of the near half", .price = 6, .is_order = true, .edit = exchange_halves},

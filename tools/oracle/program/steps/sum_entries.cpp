@@ -84,6 +84,12 @@ Color tail_joined(Stack layers, const Color& behind, const PortRounding& r, Para
 double unweighted(double) { return 1; }
 double squared(double core) { return core * core; }
 double inverted(double core) { return 1 - core; }
+// The tail's colour is the average of all layers.
+Color tail_of_all(Stack layers, const Color& behind, const PortRounding& r, Parameters p) {
+    const auto first = std::min(static_cast<std::size_t>(p[0]), layers.size());
+    const double through = sums_of<one>(layers.subspan(first), p).through;
+    return blended(layers.first(first), over(sums_of<one>(layers, p), through, behind), r);
+}
 // The sums are kept in [0, p[0]].
 template <auto weight_of>
 Color clamped(Stack layers, const Color& behind, const PortRounding&, Parameters p) {
@@ -97,6 +103,17 @@ Color undivided(Stack layers, const Color& behind, const PortRounding&, Paramete
     LayerSums s = sums_of<weight_of>(layers, p);
     for (std::size_t c = 0; c < 3; ++c) s.color[c] = std::min(s.color[c], 1.0) + s.through * behind[c];
     return s.color;
+}
+template <auto weight_of>
+Color divided_by_alphas(Stack layers, const Color& behind, const PortRounding&, Parameters p) {
+    LayerSums s = sums_of<weight_of>(layers, p);
+    s.weight = s.alpha;
+    return over(s, s.through, behind);
+}
+// Black where there are no layers.
+template <auto weight_of>
+Color without_background(Stack layers, const Color&, const PortRounding&, Parameters p) {
+    return over(sums_of<weight_of>(layers, p), 0, {});
 }
 template <auto weight_of>
 Color by_sum_of_alphas(Stack layers, const Color& behind, const PortRounding&, Parameters p) {
@@ -146,6 +163,7 @@ const StepEntry table[] = {
      .is_plausible = fall_with_depth,
      .fold = weighted<by_curve>},
     fold_entry("behind the first {} layers the others are averaged", 6, tail_averaged, counts),
+    fold_entry("the average of the layers behind the first {} is that of all layers", 6, tail_of_all, counts),
     fold_entry("the average of the layers behind the first {} is not attenuated by these", 6, tail_joined<unweighted>,
                counts),
     fold_entry("the average of the layers behind the first {} is attenuated by these twice", 7, tail_joined<squared>,
@@ -159,6 +177,12 @@ const StepEntry table[] = {
                undivided<by_depth_10>),
     fold_entry("weighted sums: alpha max(0.01, 3000 (1 - depth)^3), the background by 1 - the sum of alphas", 6,
                by_sum_of_alphas<by_depth_10>),
+    fold_entry("weighted sums: alpha max(0.01, 3000 (1 - depth)^3), divided by the sum of alphas without weights", 6,
+               divided_by_alphas<by_depth_10>),
+    fold_entry("weighted sums: alpha max(0.01, 3000 (1 - depth)^3), as if the transmittance were 0: no background", 6,
+               without_background<by_depth_10>),
+    fold_entry("layers are averaged by alpha, as if the transmittance were 0: no background", 5,
+               without_background<one>),
     fold_entry("layers are averaged by alpha, the background is weighted by 1 - the sum of alphas", 6,
                by_sum_of_alphas<one>),
 };

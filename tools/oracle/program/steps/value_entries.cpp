@@ -62,6 +62,15 @@ double absorbed(double v, Parameters) { return 1 - std::exp(-v); }
 void premultiply(PortLayer& layer, Parameters) {
     for (double& c : layer.color) c *= layer.alpha;
 }
+// A layer is blended over its cleared target by its alpha when it is stored.
+void store_blended(PortLayer& layer, Parameters) {
+    premultiply(layer, {});
+    set_alpha(layer, layer.alpha * layer.alpha);
+}
+template <std::size_t c>
+void read_alpha(PortLayer& layer, Parameters) {
+    set_alpha(layer, std::clamp(layer.color[c], 0.0, 1.0));
+}
 void unmultiply(PortLayer& layer, Parameters) { layer.alpha = 1; }
 void weigh_by_rest(PortLayer& layer, Parameters) { layer.alpha *= 1 - layer.alpha; }
 void exchange_factors(PortLayer& layer, Parameters) {
@@ -168,6 +177,9 @@ const StepEntry table[] = {
      .is_plausible = is_fog,
      .edit = fog},
     {.words = "have 1 - alpha as alpha", .price = 3, .edit = each<alpha_by<inverted>>},
+    {.words = "have alpha read from red", .price = 5, .edit = each<read_alpha<0>>},
+    {.words = "have alpha read from green", .price = 5, .edit = each<read_alpha<1>>},
+    {.words = "have alpha read from blue", .price = 5, .edit = each<read_alpha<2>>},
     {.words = "have alpha encoded as sRGB", .price = 5, .edit = each<alpha_by<encode>>},
     {.words = "have alpha decoded from sRGB", .price = 5, .edit = each<alpha_by<decode>>},
     {.words = "have alpha times 1 + ({}) depth",
@@ -217,6 +229,10 @@ const StepEntry table[] = {
      .is_continuous = true,
      .edit = darken_by_rank},
     {.words = "have colours multiplied by alpha twice", .edit = each<premultiply>},
+    {.words =
+         "are blended over a cleared target when they are stored: colours are multiplied by alpha, alpha by itself",
+     .price = 5,
+     .edit = each<store_blended>},
     {.words = "have colours that are not multiplied by alpha", .edit = each<unmultiply>},
     {.words = "have colours multiplied by alpha and by 1 - alpha", .price = 5, .edit = each<weigh_by_rest>},
     {.words = "do not attenuate what is behind", .edit = each<cover_by<zero>>},
