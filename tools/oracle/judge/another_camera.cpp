@@ -77,7 +77,7 @@ const Movement movements[] = {
      [](View& v, double by, const Middle& m) { in_eye(v, turn(1, 2, by, m.in_eye)); }},
     {"the picture is turned to the left by {} degrees", "the picture is turned to the right by {} degrees",
      [](View& v, double by, const Middle&) { in_eye(v, turn(0, 1, by, {})); }},
-    {"the eye is turned to the right by {} degrees", "the eye is turned to the left by {} degrees",
+    {"the eye is turned to the left by {} degrees", "the eye is turned to the right by {} degrees",
      [](View& v, double by, const Middle&) { in_eye(v, turn(2, 0, -by, {})); }},
     {"the eye is turned up by {} degrees", "the eye is turned down by {} degrees",
      [](View& v, double by, const Middle&) { in_eye(v, turn(1, 2, -by, {})); }},
@@ -96,6 +96,20 @@ const Movement movements[] = {
      [](View& v, double by, const Middle& m) { move_picture(v, 0, 2 * by / m.width); }},
     {"the picture is {} pixels higher", "the picture is {} pixels lower",
      [](View& v, double by, const Middle& m) { move_picture(v, 1, 2 * by / m.height); }},
+};
+// Other projections, which no small movement reaches.
+struct OtherProjection {
+    std::string_view words;
+    void (*apply)(View& view, double aspect);
+};
+const OtherProjection projections[] = {
+    {"the projection is that of a square picture: the aspect is taken as 1",
+     [](View& v, double aspect) { scale(v, aspect, 1); }},
+    {"the aspect is applied twice", [](View& v, double aspect) { scale(v, 1 / aspect, 1); }},
+    {"the aspect is applied to the height instead of the width",
+     [](View& v, double aspect) { scale(v, aspect, aspect); }},
+    {"the vertical field of view is taken as the horizontal one",
+     [](View& v, double aspect) { scale(v, 1 / aspect, 1 / aspect); }},
 };
 constexpr std::size_t movement_count = std::size(movements);
 using Amounts = std::array<double, movement_count>;
@@ -128,8 +142,14 @@ class CameraFit {
     }
 
     [[nodiscard]] std::optional<AnotherCamera> found() const {
-        const std::size_t given = wrong_by({});
+        const std::size_t given = wrong_by(input_.view);
         if (given < 8) return std::nullopt;
+        for (const OtherProjection& projection : projections) {
+            View view = input_.view;
+            projection.apply(view, double(middle_.width) / middle_.height);
+            if (const std::size_t wrong = wrong_by(view); wrong <= std::max(few, given / 50))
+                return AnotherCamera{std::string{projection.words}, wrong};
+        }
         const std::vector<std::size_t> order = likely(given);
         if (order.empty()) return std::nullopt;
         Fit best{.wrong = given};
@@ -192,6 +212,9 @@ class CameraFit {
         View view = input_.view;
         for (std::size_t k = 0; k < movement_count; ++k)
             if (amounts[k] != 0) movements[k].apply(view, amounts[k], middle_);
+        return wrong_by(view);
+    }
+    [[nodiscard]] std::size_t wrong_by(const View& view) const {
         const auto drawn = own_picture({input_.list, view, input_.profile, input_.options, input_.space}, algorithm_);
         if (!drawn) return picture_.target().pixels();
         const Picture own = stored_like(*drawn, Picture{.file = "", .targets = {picture_.target()}}, input_.space);
