@@ -40,6 +40,13 @@ std::uint32_t first_in_primitive(std::span<const std::uint32_t> indices, std::si
     return static_cast<std::uint32_t>(first);
 }
 
+// True if a strip's lines count on, from one to the next by the vertex that they share: without it the stipple is lost.
+bool counts_on(const AlteredRun& e) {
+    return e.options.raster.line_stipple && std::ranges::any_of(e.list->meshes, [](const Mesh& mesh) {
+               return mesh.primitive == pipeline::Primitive::line_strips;
+           });
+}
+
 // Gives every primitive vertices of its own, with the colour and the normal of its last one.
 void flatten(Mesh& mesh) {
     const Mesh from = mesh;
@@ -180,6 +187,7 @@ const Mistake scene_mistakes[] = {
      [](AlteredRun& e) { return has_slopes(e) && loses_perspective(e, Weighting::unnormalised); }},
     {"colors_flat", "flat colours: each triangle has that of its last corner", ChangedPart::scene,
      [](AlteredRun& e) {
+         if (counts_on(e)) return false;
          std::ranges::for_each(e.scene().meshes, flatten);
          // A constant divided by w and then by 1 / w is rounded twice, a flat colour is not.
          if (!is_textured(e) && !has_quotient_depth(e)) make_affine(e);
@@ -260,6 +268,7 @@ const Mistake scene_mistakes[] = {
      }},
     {"order_reversed", "triangles submitted in the reverse order", ChangedPart::scene,
      [](AlteredRun& e) {
+         if (counts_on(e)) return false;
          DrawList& list = e.scene();
          std::ranges::reverse(list.instances);
          for (Mesh& mesh : list.meshes) {

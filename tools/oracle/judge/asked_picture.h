@@ -31,8 +31,8 @@ struct AskedPicture {
     Tolerances tolerances{};
     int limit = 0;
     const std::vector<PassPicture>* passes = nullptr;
-    // If the frame had a linear color space; empty: not asked. `is_narrow`: by rounding that leaves little open.
-    std::function<bool(bool is_narrow)> is_right_if_linear{};
+    // If the frame had the other color space; empty: not asked. `is_narrow`: by rounding that leaves little open.
+    std::function<bool(bool is_narrow)> is_right_in_other_space{};
     ShowProgress layers{}, view{}, emulations{}, pairs{};
 };
 

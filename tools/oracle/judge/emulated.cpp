@@ -56,6 +56,7 @@ class EmulationSearch {
 
     [[nodiscard]] Emulated found() const {
         if (is_seen(whole_.right(), asked_.candidate)) return {.kind = Emulated::Kind::right};
+        if (whole_.right_run().passes > most_passes_of_emulations) return {};
         const std::vector<Mistake> options = allowed_options(algorithm_, whole_.right_run(), asked_.more);
         for (const std::span<const Mistake> all : {std::span<const Mistake>{options}, catalogue()})
             if (Emulated one = among(all); one.kind != Emulated::Kind::none) return one;
@@ -162,6 +163,7 @@ bool is_picture_of(const peeling::FrameRequest& input, const peeling::Algorithm&
     for (const bool is_whole : {false, true}) {
         peeling::RenderOptions options = input.options;
         if (!is_whole) options = verdict::scissored(options, square);
+        if (options.max_passes == 0) options.max_passes = most_passes_of_emulations;
         const auto own = own_picture(input.with(options), algorithm);
         if (!own) return false;
         const Picture& seen = is_whole ? colors : cut(colors, square);

@@ -2,7 +2,8 @@
 // other options, or of a run with mistakes.
 //
 // Rule     A single emulation that gives the picture is found without a diagnosis of the whole picture: most emulations
-//          are refuted by one square of it. Pictures of more than `most_pixels_of_emulations` are left to a diagnosis.
+//          are refuted by one square of it. Pictures of more than `most_pixels_of_emulations`, or whose
+//          algorithm takes more than `most_passes_of_emulations`, are left to a diagnosis.
 // Tests    tests/tools/library/judge_test.cpp
 #pragma once
 #include <optional>
@@ -26,6 +27,7 @@ struct Emulated {
 };
 
 inline constexpr std::size_t most_pixels_of_emulations = std::size_t{1} << 18;
+inline constexpr int most_passes_of_emulations = 100;
 
 [[nodiscard]] Emulated emulated_of(const Diagnosis& diagnosis);
 

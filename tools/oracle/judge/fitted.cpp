@@ -24,6 +24,17 @@ std::vector<std::string> FittedPicture::mistakes() const {
     return all;
 }
 
+std::string FittedPicture::right_sentence(std::size_t pixels) const {
+    const program::Fitness& right = fitting.right;
+    const std::string how = describe(right.rounding);
+    if (right.pixels == pixels)
+        return fmt::format("right: equal to layers blended {} at all {} pixels, but for rounding", how, pixels);
+    return fmt::format(
+        "right: equal to layers blended {} at {} of {} pixels, but for rounding; {} at edges that another "
+        "rasterizer may cover so",
+        how, right.pixels, pixels, pixels - right.pixels);
+}
+
 std::vector<std::string> FittedPicture::leads() const {
     std::vector<std::string> all;
     if (fitting.state != State::explained_in_part) return all;
@@ -34,6 +45,11 @@ std::vector<std::string> FittedPicture::leads() const {
 }
 
 std::string FittedPicture::lines(std::size_t pixels) const {
+    if (fitting.state == State::explained_in_part && screen.empty()) {
+        std::string text;
+        for (const std::string& lead : leads()) text += "  lead: " + lead + '\n';
+        return text;
+    }
     if (screen.empty()) {
         const std::string text = to_text(fitting);
         return text.substr(std::min(text.size(), text.find('\n') + 1));

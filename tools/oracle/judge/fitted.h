@@ -23,10 +23,11 @@ struct FittedPicture {
     [[nodiscard]] bool is_explained() const noexcept {
         return !screen.empty() || fitting.state == program::Fitting::State::explained;
     }
-    [[nodiscard]] double cost() const;                          // of the first explanation, in bits
-    [[nodiscard]] std::vector<std::string> mistakes() const;    // if it is explained; the first one is the best
-    [[nodiscard]] std::vector<std::string> leads() const;       // if it is explained in part
-    [[nodiscard]] std::string lines(std::size_t pixels) const;  // that follow the first sentence
+    [[nodiscard]] double cost() const;                        // of the first explanation, in bits
+    [[nodiscard]] std::vector<std::string> mistakes() const;  // if it is explained; the first one is the best
+    [[nodiscard]] std::string right_sentence(std::size_t pixels) const;  // of a picture that is right
+    [[nodiscard]] std::vector<std::string> leads() const;                // if it is explained in part
+    [[nodiscard]] std::string lines(std::size_t pixels) const;           // that follow the first sentence
 };
 
 [[nodiscard]] FittedPicture fitted_picture(const peeling::FrameRequest& input, const verdict::SceneFragments& fragments,

@@ -97,6 +97,18 @@ std::optional<SeenBackground> seen_background(const Expected& right, const Color
     return are_many && distance(seen.color, given) > two_codes ? std::optional{seen} : std::nullopt;
 }
 
+Color in_srgb(const Color& color, pipeline::ColorSpace space) {
+    if (space == pipeline::ColorSpace::encoded) return color;
+    Color encoded;
+    for (std::size_t c = 0; c < 3; ++c) encoded[c] = double{scenes::encode_srgb(static_cast<float>(color[c]))};
+    return encoded;
+}
+
+// True if a picture of linear light has the codes of the stated background: it was not encoded, or it is read so.
+bool is_given_in_codes(const SeenBackground& seen, const Color& given, pipeline::ColorSpace space) {
+    return distance(seen.color, in_srgb(given, space)) <= two_codes;
+}
+
 std::string number_of(double v) {
     std::string text = fmt::format("{:.3f}", v);
     while (text.ends_with('0')) text.pop_back();
@@ -112,13 +124,6 @@ std::string words_of(const Color& color) {
 Color given_background(const peeling::FrameRequest& input) {
     const auto& b = input.options.background;
     return {double{b[0]}, double{b[1]}, double{b[2]}};
-}
-
-Color in_srgb(const Color& color, pipeline::ColorSpace space) {
-    if (space == pipeline::ColorSpace::encoded) return color;
-    Color encoded;
-    for (std::size_t c = 0; c < 3; ++c) encoded[c] = double{scenes::encode_srgb(static_cast<float>(color[c]))};
-    return encoded;
 }
 
 // Options of a frame with one sample per pixel, which has no other position for colours.
@@ -139,6 +144,7 @@ struct SceneVariant {
     std::optional<pipeline::PolygonMode> polygon_mode{};
     std::optional<float> line_width_px{}, point_size_px{};
     std::optional<rasterizer::DepthPath> depth_path{};
+    bool has_stipple = true;  // --line-stipple, if it is given
 };
 
 bool is_drawn_with(const pipeline::DrawList& list, std::initializer_list<pipeline::Primitive> any) {
@@ -164,6 +170,7 @@ std::vector<SceneVariant> with_other_shapes(const peeling::FrameRequest& input) 
         for (const float px : sizes)
             if (px != raster.point_size_px)
                 all.push_back({.words = fmt::format("--point-size {}", px), .point_size_px = px});
+    if (raster.line_stipple) all.push_back({.has_stipple = false});
     for (const auto path : enum_values<rasterizer::DepthPath>)
         if (path != input.options.depth_path.value_or(input.profile.raster.depth_path))
             all.push_back({.words = fmt::format("--depth-path {}", enum_name(path)), .depth_path = path});
@@ -208,7 +215,7 @@ std::vector<SceneVariant> ways(const peeling::FrameRequest& input, const Colors&
             if (samples != input.options.sampling.samples) add(fmt::format("--samples {}", samples), samples, 0, 0);
         if (input.options.sampling.samples > 1) continue;
         for (SceneVariant way : with_other_shapes(input)) {
-            way.words = words + (words.empty() ? "" : " ") + way.words;
+            way.words = words + (words.empty() || way.words.empty() ? "" : " ") + way.words;
             way.background = background;
             all.push_back(std::move(way));
         }
@@ -247,6 +254,7 @@ bool is_right_so(const peeling::FrameRequest& input, const SceneVariant& way, co
     so.options.alpha = way.alpha;
     if (way.line_width_px) so.options.raster.line_width_px = *way.line_width_px;
     if (way.point_size_px) so.options.raster.point_size_px = *way.point_size_px;
+    if (!way.has_stipple) so.options.raster.line_stipple.reset();
     if (way.depth_path) so.options.depth_path = way.depth_path;
     if (way.background)
         for (std::size_t c = 0; c < 3; ++c) so.options.background[c] = static_cast<float>((*way.background)[c]);
@@ -311,8 +319,10 @@ Agreeing agreeing(const Expected& right, const Colors& picture, const Color& bac
 // Of a variant with which the picture is right.
 std::string sentence_of(const SceneVariant& way, const peeling::FrameRequest& input) {
     const std::string where = moved(way);
-    if (input.options.alpha && !way.alpha)
-        return "without --alpha" + (way.words.empty() ? "" : " and with " + way.words) + " the picture is right";
+    const bool has_no_alpha = input.options.alpha && !way.alpha;
+    if (has_no_alpha || !way.has_stipple)
+        return fmt::format("without {}{} the picture is right", has_no_alpha ? "--alpha" : "--line-stipple",
+                           way.words.empty() ? "" : " and with " + way.words);
     if (where.empty()) return fmt::format("looks forgotten: {}; with it the picture is right", way.words);
     if (way.words.empty()) return where + "; apart from that the picture is right";
     return fmt::format("looks forgotten: {}; and {}", way.words, where);
@@ -336,7 +346,9 @@ Forgotten forgotten_options(const peeling::FrameRequest& input, const Colors& pi
     const SceneFragments scene{input.with(options_of_one_sample(input)), input.options.fragment_memory};
     const Expected right = expected(scene);
     const Color given = given_background(input);
-    const auto seen = seen_background(right, picture, given);
+    auto seen = seen_background(right, picture, given);
+    const bool is_in_codes = seen && is_given_in_codes(*seen, given, input.space);
+    if (is_in_codes) seen.reset();
     const std::vector<SceneVariant> tried = ways(input, picture, wrong_pixels, seen);
     for (const SceneVariant& way : tried) {
         if (progress) progress(static_cast<double>(&way - tried.data()) / static_cast<double>(tried.size()));
@@ -345,6 +357,7 @@ Forgotten forgotten_options(const peeling::FrameRequest& input, const Colors& pi
         found.makes_right = true;
         return found;
     }
+    if (is_in_codes) return found;  // values of another space: what they hint at would be false
     if (seen)
         sentences.push_back(
             fmt::format("looks forgotten: --background {}, the colour of {} of the {} pixels where nothing is drawn",

@@ -148,8 +148,7 @@ class Judge {
         FittedPicture fitted = fitted_picture(input_, fragments, layers_->colors());
         if (layers_->is_undecided() && fitted.fitting.is_right()) {
             found_.state = JudgedState::right;
-            found_.sentence = fmt::format("right: equal to layers blended {} at all {} pixels, but for rounding",
-                                          describe(fitted.fitting.right.rounding), fitted.fitting.right.pixels);
+            found_.sentence = fitted.right_sentence(asked_.candidate.targets[0].pixels());
             return true;
         }
         // What a right port may produce is wrong only if an explanation leaves next to nothing.
@@ -193,14 +192,16 @@ class Judge {
     }
     [[nodiscard]] Picture own_as_stored() { return stored_like(own(), asked_.candidate, input_.space); }
 
-    // Asks which option of the view looks forgotten.
     [[nodiscard]] bool is_right_in_another_view() {
         if (layers_->wrong_colors().empty()) return false;
-        take(forgotten_options(input_, layers_->colors(), layers_->wrong_colors(), is_drawn_by(), asked_.camera,
-                               asked_.view));
-        if (!makes_right_ && asked_.is_right_if_linear && asked_.is_right_if_linear(true))
-            take({.sentences = {"looks forgotten: --color-space linear; with it the picture is right"},
+        if (asked_.is_right_in_other_space && asked_.is_right_in_other_space(true))
+            take({.sentences = {input_.space == pipeline::ColorSpace::linear
+                                    ? "without --color-space linear the picture is right"
+                                    : "looks forgotten: --color-space linear; with it the picture is right"},
                   .makes_right = true});
+        else
+            take(forgotten_options(input_, layers_->colors(), layers_->wrong_colors(), is_drawn_by(), asked_.camera,
+                                   asked_.view));
         return makes_right_;
     }
 
@@ -306,7 +307,8 @@ class Judge {
         if (layers_ && layers_->single) {
             verdict::PictureVerdict& single = *layers_->single;
             single.found.distinguishing_command = distinguishing_command(single.found);
-            if (shows_linear_light() && asked_.is_right_if_linear && asked_.is_right_if_linear(false))
+            if (shows_linear_light() && input_.space == pipeline::ColorSpace::encoded &&
+                asked_.is_right_in_other_space && asked_.is_right_in_other_space(false))
                 single.reading += "  with --color-space linear the picture is right\n";
         }
         if (makes_right_ || (found_.state == JudgedState::explained && !(layers_ && layers_->is_explained())))
@@ -338,7 +340,8 @@ class Judge {
         std::string& text = found_.text;
         text = found_.sentence + '\n';
         for (const std::string& sentence : found_.forgotten) text += "  " + sentence + '\n';
-        if (is_named_by_fitting()) text += fitted_->lines(asked_.candidate.targets[0].pixels());
+        if (fitted_ && (fitted_->is_explained() || !found_.leads.empty()))
+            text += fitted_->lines(asked_.candidate.targets[0].pixels());
         if (habit_) text += habit_->line(layers_->wrong_colors().size());
         if (layers_ && !is_by_emulation_ && (found_.state != JudgedState::explained || layers_->is_explained()) &&
             layers_->is_right() == found_.is_right)
@@ -356,8 +359,6 @@ class Judge {
         if (!is_by_emulation_ && !is_of_layers) text += "  " + first_line(emulations_->found);
         text += oracle::lines_of(emulations_->found, emulations_->comparison);
     }
-
-    [[nodiscard]] bool is_named_by_fitting() const { return fitted_ && fitted_->is_explained(); }
 
     void write_json() {
         ordered_json layers = layers_ ? layers_->json(input_) : ordered_json(nullptr);

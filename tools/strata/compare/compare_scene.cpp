@@ -228,19 +228,21 @@ oracle::ShowProgress shares_of(Progress& bar) {
     return [&bar](double share) { bar.show(share); };
 }
 
-// Whether a picture is right with --color-space linear (AskedPicture).
-bool is_right_if_linear(SceneQuestion question, const oracle::Picture& candidate, bool is_narrow) {
-    if (question.run.scene_options.color_space == pipeline::ColorSpace::linear || scenes::is_pack(question.run.scene))
-        return false;
-    question.run.scene_options.color_space = pipeline::ColorSpace::linear;
+// Whether a picture is right with the other --color-space (AskedPicture).
+bool is_right_in_other_space(SceneQuestion question, const oracle::Picture& candidate, bool is_narrow) {
+    using enum pipeline::ColorSpace;
+    if (scenes::is_pack(question.run.scene)) return false;
+    pipeline::ColorSpace& space = question.run.scene_options.color_space;
+    space = space == linear ? encoded : linear;
     const Session session = open_at_size(question, colors_of(candidate), candidate.file);
-    const peeling::FrameRequest input = session.request(question.run.render, pipeline::ColorSpace::linear);
+    const peeling::FrameRequest input = session.request(question.run.render, space);
     if (is_narrow) {
         namespace verdict = oracle::verdict;
         verdict::SceneFragments fragments{input, input.options.fragment_memory};
         const peeling::Algorithm& peel =
             question.algorithm.empty() ? *peeling::find_algorithm("dual") : *question.run.algorithms[0];
         if (oracle::is_picture_of(input, peel, {.candidate = candidate}, fullest(fragments))) return true;
+        if (space == encoded) return right_narrowly(fragments, verdict::Colors{colors_of(candidate)}).has_value();
         return std::ranges::any_of(
             std::array{verdict::ColorStorage::encoded, verdict::ColorStorage::srgb_target}, [&](auto stored) {
                 fragments.set_stored(stored);
@@ -268,7 +270,8 @@ int compare_with_scene(SceneQuestion question, const oracle::Picture& candidate)
              .algorithm = question.algorithm.empty() ? nullptr : question.run.algorithms[0],
              .camera = camera_in_words(question.run),
              .tolerances = {.channels = question.has_alpha ? oracle::ColorChannels::all : oracle::ColorChannels::rgb},
-             .is_right_if_linear = [&](bool is_narrow) { return is_right_if_linear(question, candidate, is_narrow); },
+             .is_right_in_other_space =
+                 [&](bool is_narrow) { return is_right_in_other_space(question, candidate, is_narrow); },
              .layers = shares_of(layers),
              .view = shares_of(view)},
             oracle::Effort::single);
