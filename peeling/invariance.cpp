@@ -142,8 +142,8 @@ bool is_quotient(DepthPath path) { return path == DepthPath::perspective_rq || p
 
 // The proof in safe_range.h requires two depths of the same fragments and a quantised reference. Otherwise no advice is
 // given.
-Advice advice_for(const InvarianceCase& e, rasterizer::OffsetUnit unit, const std::vector<PathPair>& pairs,
-                  const std::vector<std::uint32_t>& opaque) {
+Advice advice_for(const InvarianceCase& e, const DrawList& list, rasterizer::OffsetUnit unit,
+                  const std::vector<PathPair>& pairs, const std::vector<std::uint32_t>& opaque) {
     Advice advice;
     if (draws_twice(e.render) || !e.render.quantize_reference || e.algorithm->key != DepthKey::stored_code)
         return advice;
@@ -152,7 +152,11 @@ Advice advice_for(const InvarianceCase& e, rasterizer::OffsetUnit unit, const st
     advice.epsilon = safe_absolute(pairs, opaque, format);
     const bool is_code = code_kind(format) == rasterizer::CodeKind::fixed &&
                          (unit == rasterizer::OffsetUnit::format || unit == rasterizer::OffsetUnit::buffer);
-    if (is_code && is_quotient(e.compare) && !is_quotient(e.write)) advice.bias = safe_bias(pairs, opaque);
+    // Polygon offset does not move lines and points (GL 4.6, 14.6.5).
+    const bool are_polygons = std::ranges::all_of(
+        list.meshes, [](const Mesh& mesh) { return rasterizer::is_polygon(rasterizer::shape_of(mesh.primitive)); });
+    if (is_code && are_polygons && is_quotient(e.compare) && !is_quotient(e.write))
+        advice.bias = safe_bias(pairs, opaque);
     return advice;
 }
 
@@ -180,7 +184,7 @@ Measurement measure(const DrawList& list, const View& view, const DeviceProfile&
         // Passes with different viewports share no depth buffer: their codes are compared, and no peel is run.
         m.peeled = e.moved_window == std::array{0, 0};
         if (!m.peeled) return m;
-        m.advice = advice_for(e, profile.raster.offset_unit, pairs.pairs, written.opaque);
+        m.advice = advice_for(e, list, profile.raster.offset_unit, pairs.pairs, written.opaque);
         run_peel(m, passes);
         m.truth = true_picture(scene, bare(e.render, e.write));
         m.image = image_error(m.picture, m.truth);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -124,7 +125,10 @@ void PixelAudit::compare(std::span<const KeyedFragment> fragments, const Audited
     const auto truth = composite(fragments, by_exact_depth_, pixel.background);
     double worst = 0;
     const std::size_t channels = pixel.background[3] == 1.0f ? 3 : 4;
-    for (std::size_t c = 0; c < channels; ++c) worst = std::max(worst, std::fabs(pixel.shown[c] - truth[c]) * 255.0);
+    for (std::size_t c = 0; c < channels; ++c) {
+        const double off = std::fabs(pixel.shown[c] - truth[c]) * 255.0;
+        worst = std::isnan(off) ? std::numeric_limits<double>::infinity() : std::max(worst, off);
+    }
     found_.max_difference = std::max(found_.max_difference, worst);
     if (ties_change_nothing) found_.max_difference_without_ties = std::max(found_.max_difference_without_ties, worst);
 }

@@ -23,14 +23,12 @@ bool has_quotient(std::optional<rasterizer::DepthPath> path) {
     return path == rasterizer::DepthPath::perspective_rq || path == rasterizer::DepthPath::depth_replace;
 }
 
-// Throws InputError for a name of offset_only that no instance has.
+// Throws InputError for a name of offset_only that neither a mesh nor a material has.
 void check_names(const DrawList& list, const RenderOptions& options) {
-    for (const std::string& name : options.offset_only) {
-        const auto bears = [&](const Instance& instance) { return has_name(list, instance, name); };
-        if (std::ranges::none_of(list.instances, bears))
-            throw InputError("render options", "offset_only", "the name of a drawn mesh or of its material",
-                             "'" + name + "'");
-    }
+    for (const std::string& name : options.offset_only)
+        if (std::ranges::find(list.meshes, name, &Mesh::name) == list.meshes.end() &&
+            std::ranges::find(list.materials, name, &Material::name) == list.materials.end())
+            throw InputError("render options", "offset_only", "the name of a mesh or of a material", "'" + name + "'");
 }
 
 }  // namespace

@@ -175,5 +175,5 @@ TEST_CASE("a name that no drawn mesh or material has is refused") {
     const DrawList list = decal_on_wall();
     CHECK_THROWS_WITH(
         all_fragments(list, *find_profile("geforce8"), decal_options(DepthFormat::d24, {"decal", "decals"})),
-        "render options: offset_only: expected the name of a drawn mesh or of its material, found 'decals'");
+        "render options: offset_only: expected the name of a mesh or of a material, found 'decals'");
 }
