@@ -71,14 +71,14 @@ oracle::Golden golden_of(RunOptions& options, const std::function<void(double sh
     return golden;
 }
 
-// Prints the summary, such as "pack: 41 files, 212 KiB, of 2 algorithms".
-void say_written(const std::string& folder, const std::string& what) {
+// Prints the summary, such as "pack: 41 files, 212 KiB, of 2 algorithms". `judges`: the command for a port's pictures.
+void say_written(const std::string& folder, const std::string& what, std::string_view judges) {
     if (is_quiet()) return;
     std::uintmax_t files = 0, bytes = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
         if (entry.is_regular_file()) ++files, bytes += entry.file_size();
-    print(fmt::format("{}: {} files, {} KiB, of {}; strata compare {} FOLDER holds a port's pictures against it\n",
-                      folder, files, (bytes + 1023) / 1024, what, folder));
+    print(fmt::format("{}: {} files, {} KiB, of {}; strata {} {} FOLDER judges a port's pictures of it\n", folder,
+                      files, (bytes + 1023) / 1024, what, judges, folder));
 }
 
 // Writes all scenes of the suite, or only the named one.
@@ -93,7 +93,8 @@ int write_suite(const GoldenOptions& options) {
     Progress bar("scenes of the suite");
     oracle::write_suite(
         options.run.output, scenes, [&](double share) { bar.show(share); }, options.copies());
-    say_written(options.run.output, fmt::format("{} scene{}", scenes.size(), scenes.size() == 1 ? "" : "s"));
+    say_written(options.run.output, fmt::format("{} scene{}", scenes.size(), scenes.size() == 1 ? "" : "s"),
+                "diagnose");
     return 0;
 }
 
@@ -123,7 +124,8 @@ int golden(GoldenOptions& options) {
                        [&](double share) { bar->show(tried + (1 - tried) * share); });
     bar.reset();
     say_written(options.run.output,
-                fmt::format("{} algorithm{}", made.algorithms.size(), made.algorithms.size() == 1 ? "" : "s"));
+                fmt::format("{} algorithm{}", made.algorithms.size(), made.algorithms.size() == 1 ? "" : "s"),
+                "compare");
     return 0;
 }
 

@@ -139,9 +139,16 @@ std::string best_rows(const Lines& lines, const Lines& timings) {
     const auto add = [&](const std::string& scene, const char* what, const ordered_json* line) {
         if (line == nullptr) return;
         const auto& timing = timings[static_cast<std::size_t>(line - lines.data())];
-        text += fmt::format("{}, {}: {} {}: RMSE {} from sorted, {} from exact, {:.2f} of the default's time\n", scene,
-                            what, line->at("knob").get<std::string>(), choice_text(*line),
-                            error_text(line->at("sorted_rmse")), error_text(line->at("rmse")), time_of(timing));
+        const auto standard = std::ranges::find_if(
+            lines, [&](const ordered_json& l) { return l.at("scene") == scene && l.at("knob") == "default"; });
+        const auto of_default = standard == lines.end()
+                                    ? std::nullopt
+                                    : ratio_in(timings[static_cast<std::size_t>(standard - lines.begin())]);
+        const bool is_sure = of_default && (&*standard == line || is_apart(*ratio_in(timing), *of_default));
+        text += fmt::format("{}, {}: {} {}: RMSE {} from sorted, {} from exact, {:.2f}{} of the default's time\n",
+                            scene, what, line->at("knob").get<std::string>(), choice_text(*line),
+                            error_text(line->at("sorted_rmse")), error_text(line->at("rmse")), time_of(timing),
+                            is_sure ? "" : " (?)");
     };
     for (const std::string& scene : scenes) {
         add(scene, "best exact algorithm", best_of(lines, timings, scene, is_algorithm(true), by_error));

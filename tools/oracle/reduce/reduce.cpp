@@ -309,11 +309,15 @@ std::optional<Reduction> reduce(const Golden& scene, const Candidate& candidate,
 
 std::string Reduction::description() const {
     const bool is_whole = window == Rect{0, 0, scene.options.width, scene.options.height};
+    const bool are_triangles = std::ranges::all_of(scene.scene.list.meshes, [](const pipeline::Mesh& mesh) {
+        return mesh.primitive == pipeline::Primitive::triangles;
+    });
     const std::string of = is_whole ? "" : fmt::format("{}x{} pixels of ", window.width(), window.height());
-    std::string text = fmt::format("{} in {}a frame of {}x{} still differ{} in {}: {} of {} in {}x{}, after {} runs",
-                                   number_of(triangles, "triangle"), of, scene.options.width, scene.options.height,
-                                   triangles == 1 ? "s" : "", number_of(comparison.differing, "pixel"), triangles,
-                                   triangles_before, width_before, height_before, runs);
+    std::string text =
+        fmt::format("{} in {}a frame of {}x{} still differ{} in {}: {} of {} in {}x{}, after {} runs",
+                    number_of(triangles, are_triangles ? "triangle" : "primitive"), of, scene.options.width,
+                    scene.options.height, triangles == 1 ? "s" : "", number_of(comparison.differing, "pixel"),
+                    triangles, triangles_before, width_before, height_before, runs);
     const auto first = std::ranges::find(comparison.kinds, kind, &KindReport::kind);
     if (first != comparison.kinds.end())
         text += fmt::format("; the first at {},{} ({})", window.x0 + first->first_x, window.y0 + first->first_y,

@@ -122,7 +122,8 @@ void add_tolerance_option(CLI::App& app, oracle::Tolerances& tolerances) {
          "forgive colours and depths N codes apart (color, depth, or a target by its name), and pixels that differ all "
          "the same, N or N% of them, by what they differ in (coverage, background, layers, depth-pixels, color-pixels, "
          "unseen: colours where alpha is 0 in both) or in whatever "
-         "(pixels); NaN and infinity only by not-finite=N; nothing without this option",
+         "(pixels); NaN and infinity only by not-finite=N; nothing without this option; with a scene: compare code by "
+         "code with its own picture, without the verdict that knows what rounding explains",
          "color=N, depth=N, TARGET=N, coverage=N, background=N, layers=N, depth-pixels=N, color-pixels=N, "
          "unseen=N, not-finite=N and pixels=N with commas between, pixels also as a share such as 0.02%"},
         [&tolerances](std::string_view text) {

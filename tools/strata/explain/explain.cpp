@@ -141,11 +141,13 @@ Command add_explain(CLI::App& root) {
               "a file name"});
     app->add_flag("--json", options->json, "one JSON document instead of text: enough to do every step again");
     app->footer(
-        footer("  strata explain teapot --size 64x48 --pixel 32,24\n"
-               "  strata explain volume-beam:slices=4 --algorithm dual,front_to_back --size 32x32 --pixel 16,16 --json "
-               "--svg column.svg\n"
-               "  strata render teapot --size 64x48 -o port.png && strata explain teapot --candidate port.png --pixel "
-               "32,24\n"));
+        "Examples:\n"
+        "  strata explain teapot --size 64x48 --pixel 32,24\n"
+        "  strata explain volume-beam:slices=4 --algorithm dual,front_to_back --size 32x32 --pixel 16,16 --json "
+        "--svg column.svg\n"
+        "  strata render teapot --size 64x48 -o port.png && strata explain teapot --candidate port.png --pixel 32,24\n"
+        "Exit status: 0 done, 1 --candidate is wrong at the pixel, 2 bad input or usage, 3 the system failed, 130 "
+        "interrupted.");
     return {app, [options] { return explain(*options); }};
 }
 

@@ -154,7 +154,8 @@ std::string to_table(const std::vector<RunSummary>& runs, const RunContext& cont
     for (const RunSummary& run : runs) {
         table.rows.push_back(cells(run, context));
         for (const auto& diagnostic : run.result.frame.diagnostics) notes += describe(run.algorithm->name, diagnostic);
-        if (is_done(run) && context.request.render.audit && run.result.audit.max_difference > 255)
+        if (is_done(run) && context.request.render.audit && run.result.audit.max_difference > 255 &&
+            std::isfinite(run.result.audit.max_difference))
             notes += fmt::format("{}: the greatest difference is {:.3f} times white: its colours exceed 1\n",
                                  run.algorithm->name, run.result.audit.max_difference / 255);
     }
