@@ -58,35 +58,44 @@ Color blended(std::span<const PortLayer> layers, const Color& behind, const Port
     return sum;
 }
 
-Color run(std::span<const Applied> edits, const ListPixel& pixel, const PortRounding& rounding) {
-    thread_local PortLayers layers;
-    layers.clear();
+void EditedPixel::edit(std::span<const Applied> edits, const ListPixel& pixel) {
+    edits_ = edits;
+    layers_.clear();
     for (std::uint32_t k = 0; k < pixel.fragments.size(); ++k) {
         const ListFragment& f = pixel.fragments[k];
-        layers.push_back({.color = f.color, .alpha = f.alpha, .cover = f.alpha, .depth = f.depth, .fragment = k});
+        layers_.push_back({.color = f.color, .alpha = f.alpha, .cover = f.alpha, .depth = f.depth, .fragment = k});
     }
-    Color behind = pixel.behind;
-    const Applied* fold = nullptr;
+    behind_ = pixel.behind;
+    fold_ = nullptr;
     for (const Applied& edit : edits) {
         const bool is_here = edit.mask.size() > 0 && edit.mask[0] != 0;
         switch (edit.entry->step) {
-            case PortStep::list: edit.entry->edit(layers, {pixel, edit.mask}, edit.parameters); break;
+            case PortStep::list: edit.entry->edit(layers_, {pixel, edit.mask}, edit.parameters); break;
             case PortStep::background:
-                if (is_here && !pixel.has_opaque) behind = edit.entry->recolor(behind, edit.parameters);
+                if (is_here && !pixel.has_opaque) behind_ = edit.entry->recolor(behind_, edit.parameters);
                 break;
             case PortStep::fold:
-                if (is_here) fold = &edit;
+                if (is_here) fold_ = &edit;
                 break;
             case PortStep::finish: break;
         }
     }
-    Color color = fold != nullptr ? fold->entry->fold(layers, behind, rounding, fold->parameters)
-                                  : blended(layers, behind, rounding);
-    for (const Applied& edit : edits)
+}
+
+Color EditedPixel::color(const PortRounding& rounding) const {
+    Color color = fold_ != nullptr ? fold_->entry->fold(layers_, behind_, rounding, fold_->parameters)
+                                   : blended(layers_, behind_, rounding);
+    for (const Applied& edit : edits_)
         if (edit.entry->step == PortStep::finish && edit.mask[0] != 0)
             color = edit.entry->recolor(color, edit.parameters);
     for (double& c : color) c = stored(rounding.result, c, rounding.truncates);
     return color;
+}
+
+Color run(std::span<const Applied> edits, const ListPixel& pixel, const PortRounding& rounding) {
+    thread_local EditedPixel made;
+    made.edit(edits, pixel);
+    return made.color(rounding);
 }
 
 void select(const Edit& edit, const ListPixel& pixel, std::vector<char>& mask) {
@@ -96,7 +105,8 @@ void select(const Edit& edit, const ListPixel& pixel, std::vector<char>& mask) {
             if (mask[k] != 0 && !condition.holds(pixel, k)) mask[k] = 0;
 }
 
-Color value(const Program& program, const ListPixel& pixel, const PortRounding& rounding) {
+const EditedPixel& edited(const Program& program, const ListPixel& pixel) {
+    thread_local EditedPixel made;
     thread_local std::vector<std::vector<char>> masks;
     thread_local std::vector<Applied> applied;
     applied.clear();
@@ -106,7 +116,12 @@ Color value(const Program& program, const ListPixel& pixel, const PortRounding& 
         select(edit, pixel, masks[i]);
         applied.push_back({edit.entry, edit.parameters, masks[i]});
     }
-    return run(applied, pixel, rounding);
+    made.edit(applied, pixel);
+    return made;
+}
+
+Color value(const Program& program, const ListPixel& pixel, const PortRounding& rounding) {
+    return edited(program, pixel).color(rounding);
 }
 
 bool changes(const Program& program, const ListPixel& pixel) {

@@ -80,9 +80,25 @@ struct Applied {
     std::span<const char> mask{};
 };
 
-// The pixel's colour. Without a rounding it is exact.
+// A pixel whose list is edited: ports of all roundings have that in common. It refers to the edits.
+class EditedPixel {
+  public:
+    void edit(std::span<const Applied> edits, const ListPixel& pixel);
+    // Without a rounding it is exact.
+    [[nodiscard]] Color color(const PortRounding& rounding) const;
+
+  private:
+    std::span<const Applied> edits_{};
+    PortLayers layers_{};
+    Color behind_{};
+    const Applied* fold_ = nullptr;
+};
+
+// The pixel's colour.
 [[nodiscard]] Color run(std::span<const Applied> edits, const ListPixel& pixel, const PortRounding& rounding);
 [[nodiscard]] Color value(const Program& program, const ListPixel& pixel, const PortRounding& rounding);
+// The pixel after the program's edits; until the next call of the thread.
+[[nodiscard]] const EditedPixel& edited(const Program& program, const ListPixel& pixel);
 
 // True for the fragments, or the pixel, that an edit changes.
 void select(const Edit& edit, const ListPixel& pixel, std::vector<char>& mask);

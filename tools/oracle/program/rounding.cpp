@@ -8,13 +8,6 @@
 
 namespace strata::oracle::program {
 
-double stored_in(PortFormat format, double v, bool truncates) noexcept {
-    using verdict::StorageRounding;
-    if (format == PortFormat::half) return StorageRounding::nearest_half(v);
-    const double scale = codes_of(format), code = std::clamp(v, 0.0, 1.0) * scale;
-    return StorageRounding::floor_of(code + (truncates ? 1e-9 : 0.5)) / scale;
-}
-
 namespace {
 
 PortRounding at_each_blend(BlendForm form, PortFormat format, PortFormat result) {

@@ -5,10 +5,13 @@
 // Source   GL 4.6 2.3.5 (normalised integers), 17.3.6 (blending); pipeline/reference/fragment-stages.md 8.
 // Tests    tests/tools/oracle/program/parts_test.cpp
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "tools/oracle/rounding/storage_rounding.h"
 
 namespace strata::oracle::program {
 
@@ -27,9 +30,12 @@ enum class PortFormat : std::uint8_t { exact, unorm8, unorm10, unorm16, half };
 [[nodiscard]] constexpr double step_of(PortFormat format) noexcept { return 1 / codes_of(format); }
 
 // The value as it is stored. Integers are clamped to [0, 1].
-[[nodiscard]] double stored_in(PortFormat format, double v, bool truncates) noexcept;
 [[nodiscard]] inline double stored(PortFormat format, double v, bool truncates = false) noexcept {
-    return format == PortFormat::exact ? v : stored_in(format, v, truncates);
+    using verdict::StorageRounding;
+    if (format == PortFormat::exact) return v;
+    if (format == PortFormat::half) return StorageRounding::nearest_half(v);
+    const double scale = codes_of(format), code = std::clamp(v, 0.0, 1.0) * scale;
+    return StorageRounding::floor_of(code + (truncates ? 1e-9 : 0.5)) / scale;
 }
 
 enum class BlendForm : std::uint8_t {

@@ -5,6 +5,7 @@
 
 #include "tests/tools/oracle/program/plain_port.h"
 #include "tools/oracle/program/fit/fitting.h"
+#include "tools/oracle/program/fit/search.h"
 #include "tools/oracle/program/steps/entries.h"
 
 using namespace strata::oracle::program;

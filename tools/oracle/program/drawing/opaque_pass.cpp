@@ -10,7 +10,7 @@
 
 #include "tools/oracle/program/fit/fitting.h"
 #include "tools/oracle/program/fit/score.h"
-#include "tools/oracle/program/fit/solve.h"
+#include "tools/oracle/program/fit/search.h"
 
 namespace strata::oracle::program {
 

@@ -64,7 +64,7 @@ class GaussNewton {
         Vector all;
         for (std::size_t i = 0; i < sample_.pixels().size(); ++i) {
             const SamplePixel& pixel = sample_.pixels()[i];
-            const Color color = sample_.exact(pixel, entry_, p, sample_.mask_at(i, entry_, mask_));
+            const Color color = sample_.exact(pixel, entry_, p, sample_.mask_at(i, entry_.step, mask_));
             for (const double r : residual(color, *pixel.pixel, sample_.unit())) all.push_back(r);
         }
         return all;
@@ -99,7 +99,7 @@ class GaussNewton {
 
 }  // namespace
 
-void fit_parameters(const Scorer& scorer, Trial& trial) {
+void fit_parameters(Scorer& scorer, Trial& trial) {
     Edit edit = trial.edit;
     const GaussNewton fit{scorer.sample(), edit};
     constexpr int most_steps = 20;

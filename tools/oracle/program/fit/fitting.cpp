@@ -6,6 +6,7 @@
 
 #include "tools/oracle/program/fit/at_random.h"
 #include "tools/oracle/program/fit/pairs.h"
+#include "tools/oracle/program/fit/search.h"
 
 namespace strata::oracle::program {
 
@@ -16,20 +17,25 @@ constexpr std::size_t proved_of_search = 8, most_told = 6;
 // The best edits on top of a program, proved.
 std::vector<Proof> search_and_prove(const Lists& lists, const Program& base, const PortRounding& rounding,
                                     const Fitness& right) {
-    const FitSample sample{lists, base, rounding};
+    const PixelClasses classes{lists, base, rounding};
+    const FitSample sample{classes};
     std::vector<Proof> proofs, others;
-    for (const Trial& trial : search(lists, base, rounding)) {
+    for (const Trial& trial : best_edits(FitSample{classes, small_sample}, sample, roundings(lists.format))) {
         if (proofs.size() >= proved_of_search || trial.cost > 0.9 * sample.cost()) break;
         Program program = base;
         program.edits.push_back(trial.edit);
-        const PortRounding of_program = best_fitness(lists, program).rounding;
+        const PortRounding of_program = likely_rounding(lists, program);
         place_thresholds(lists, sample, program, of_program);
         proofs.push_back(prove(lists, program, right));
-        if (proofs.back().cost > 0.5 * right.bits || proofs.size() > 3) continue;
+        // Programs that select the same are of use only if they are told: of a part by a first edit alone.
+        const bool is_first = base.edits.empty() && base.drawing.empty();
+        const bool may_be_told = proofs.back().is_whole || (proofs.back().is_part && is_first);
+        if (!may_be_told || proofs.back().cost > 0.5 * right.bits || proofs.size() > 3) continue;
         for (Program& equal : equal_programs(sample, program)) {
             place_thresholds(lists, sample, equal, of_program);
-            if (measure(lists, equal, of_program).bits < 1.15 * proofs.back().fitness.bits + 60)
-                others.push_back(prove(lists, equal, right));
+            const Fitness fitness = measure(lists, equal, of_program);
+            if (fitness.bits < 1.15 * proofs.back().fitness.bits + 60)
+                others.push_back(prove(lists, equal, right, nullptr, &fitness));
         }
     }
     proofs.insert(proofs.end(), others.begin(), others.end());

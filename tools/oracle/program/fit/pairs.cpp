@@ -13,6 +13,7 @@ namespace {
 struct WeighedPixel {
     const ListPixel* pixel = nullptr;
     double weight = 1;
+    double right_so_far = 0;  // cost of the right program, of this pixel and those before it
 };
 
 class PairSearch {
@@ -32,8 +33,9 @@ class PairSearch {
             const std::size_t count = std::min<std::size_t>(all.size(), which == 1 ? 80 : 40);
             for (std::size_t i = 0; i < count; ++i) {
                 const double weight = static_cast<double>(all.size()) / static_cast<double>(count);
-                pixels_.push_back({all[i * all.size() / count], weight});
-                right_ += weight * cost_of(value({}, *pixels_.back().pixel, {}), *pixels_.back().pixel, unit_);
+                const ListPixel& pixel = *all[i * all.size() / count];
+                right_ += weight * cost_of(value({}, pixel, {}), pixel, unit_);
+                pixels_.push_back({&pixel, weight, right_});
             }
         }
     }
@@ -75,15 +77,17 @@ class PairSearch {
     };
 
     void ask(const EditHere& a, const EditHere* b) {
-        constexpr double some = 0.25;  // of the right program's cost
-        double cost = price(a.edit) + (b != nullptr ? price(b->edit) : 0);
+        constexpr double some = 0.25;   // of the right program's cost
+        constexpr std::size_t few = 8;  // pixels that show if it may cost so little
+        const double words = price(a.edit) + (b != nullptr ? price(b->edit) : 0);
+        double cost = words;
         const double limit = std::min(some * right_, found_.size() < most ? some * right_ : found_.back().cost);
         for (std::size_t i = 0; i < pixels_.size(); ++i) {
-            const auto& [pixel, weight] = pixels_[i];
+            const auto& [pixel, weight, right_so_far] = pixels_[i];
             std::array<Applied, 2> edits{Applied{a.edit.entry, a.edit.parameters, a.masks[i]}};
             if (b != nullptr) edits[1] = {b->edit.entry, b->edit.parameters, b->masks[i]};
             cost += weight * cost_of(run({edits.data(), b != nullptr ? 2u : 1u}, *pixel, {}), *pixel, unit_);
-            if (cost >= limit) return;
+            if (cost >= limit || (i >= few && cost > 2 * some * right_so_far + words)) return;
         }
         Program program{.edits = {a.edit}};
         if (b != nullptr) program.edits.push_back(b->edit);

@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "tools/oracle/program/fit/search.h"
+
 namespace strata::oracle::program {
 
 namespace {
@@ -61,8 +63,8 @@ std::uint64_t open_pixels(const Lists& lists, const Program& program, const Port
 
 }  // namespace
 
-Proof prove(const Lists& lists, const Program& program, const Fitness& right, const Lists* given) {
-    Proof proof{.program = program, .fitness = best_fitness(lists, program)};
+Proof prove(const Lists& lists, const Program& program, const Fitness& right, const Lists* given, const Fitness* own) {
+    Proof proof{.program = program, .fitness = own != nullptr ? *own : best_fitness(lists, program)};
     const Fitness& f = proof.fitness;
     proof.cost = f.bits + price(program);
     const double most = std::max(2.0, 0.002 * static_cast<double>(f.covered));
@@ -170,14 +172,15 @@ class Threshold {
         if (values_.size() < 2) return;
         std::size_t from = 0, to = values_.size() - 1;
         std::size_t best = at(condition_.threshold);
-        double cost = cost_at(best);
         for (std::size_t step = std::max<std::size_t>((to - from) / 16, 1);;
              step = std::max<std::size_t>(step / 8, 1)) {
             const std::size_t middle = best;
+            const std::size_t every = step > 1 ? pixels_.size() / few | 1 : 1;
+            double cost = cost_at(best, every);
             from = middle > 16 * step ? middle - 16 * step : 0;
             to = std::min(values_.size() - 1, middle + 16 * step);
             for (std::size_t i = from; i <= to; i += step) {
-                const double found = cost_at(i);
+                const double found = cost_at(i, every, cost);
                 if (found < cost) {
                     cost = found;
                     best = i;
@@ -189,6 +192,15 @@ class Threshold {
     }
 
   private:
+    static constexpr std::size_t few = 1024;  // pixels that long steps ask
+
+    // A pixel with its values, and the bits that it costs if so many of them are below the threshold; negative: not
+    // known. Of pixels with equal depths nothing is kept.
+    struct PixelNear {
+        const ListPixel* pixel = nullptr;
+        std::vector<double> values{}, bits{};
+    };
+
     void gather(double low, double high) {
         for (const ListPixel& pixel : lists_.pixels) {
             bool is_near = false;
@@ -199,7 +211,14 @@ class Threshold {
                 values_.push_back(v);
                 is_near = true;
             }
-            if (is_near) pixels_.push_back(&pixel);
+            if (is_near) pixels_.push_back({&pixel, {}, {}});
+        }
+        for (PixelNear& near : pixels_) {
+            if (!near.pixel->ties.empty()) continue;
+            const std::size_t count = condition_.property->is_of_pixel ? 1 : near.pixel->fragments.size();
+            for (std::size_t k = 0; k < count; ++k) near.values.push_back(condition_.property->of(*near.pixel, k));
+            std::ranges::sort(near.values);
+            near.bits.assign(count + 1, -1);
         }
         std::ranges::sort(values_);
         values_.erase(std::unique(values_.begin(), values_.end()), values_.end());
@@ -213,11 +232,19 @@ class Threshold {
                                    ? shortest_between(values_[i - 1], values_[i])
                                    : values_[i];
     }
-    double cost_at(std::size_t i) {
+    // Of every so many pixels; what costs more than `most` is not counted to the end.
+    double cost_at(std::size_t i, std::size_t every, double most = std::numeric_limits<double>::infinity()) {
         set(i);
         double bits = 0;
-        for (const ListPixel* pixel : pixels_)
-            bits += bits_of(residual_of(program_, *pixel, rounding_, lists_.unit()).off);
+        for (std::size_t p = 0; p < pixels_.size() && bits < most; p += every) bits += bits_at(pixels_[p]);
+        return bits;
+    }
+    double bits_at(PixelNear& near) const {
+        const auto find = [&] { return bits_of(residual_of(program_, *near.pixel, rounding_, lists_.unit()).off); };
+        if (near.bits.empty()) return find();
+        const auto below = std::ranges::lower_bound(near.values, condition_.threshold) - near.values.begin();
+        double& bits = near.bits[static_cast<std::size_t>(below)];
+        if (bits < 0) bits = find();
         return bits;
     }
 
@@ -226,7 +253,7 @@ class Threshold {
     Condition& condition_;
     const PortRounding& rounding_;
     std::vector<double> values_{};
-    std::vector<const ListPixel*> pixels_{};
+    std::vector<PixelNear> pixels_{};
 };
 
 }  // namespace

@@ -10,9 +10,11 @@
 #pragma once
 #include <algorithm>
 
-#include "tools/oracle/program/fit/search.h"
+#include "tools/oracle/program/fit/score.h"
 
 namespace strata::oracle::program {
+
+class FitSample;
 
 struct Proof {
     Program program{};
@@ -27,9 +29,10 @@ struct Proof {
     }
 };
 
-// `given`: the lists of the right program, of the same pixels, if they are others.
+// `given`: the lists of the right program, of the same pixels, if they are others; `own`: the program's fitness, if it
+// is known.
 [[nodiscard]] Proof prove(const Lists& lists, const Program& program, const Fitness& right,
-                          const Lists* given = nullptr);
+                          const Lists* given = nullptr, const Fitness* own = nullptr);
 // Moves the thresholds of a program's last edit to where the whole picture costs least.
 void place_thresholds(const Lists& lists, const FitSample& sample, Program& program, const PortRounding& rounding);
 // Programs whose last edit has another property in a condition, which selects the same fragments of the sample.

@@ -1,6 +1,7 @@
 // tools/oracle/program/fit/refine.cpp - walks thresholds and fits parameters (search.h).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tools/oracle/program/fit/search.h"
 
@@ -16,21 +17,32 @@ double shortest_between(double low, double high) {
     return high;
 }
 
-double Scorer::operator()(const Edit& edit) const {
-    return price(edit) + (emulation_ ? sample_->emulated(edit, *emulation_) : sample_->score(edit).bits);
+double Scorer::operator()(const Edit& edit, double most) {
+    if (edit.entry != entry_ || edit.parameters != parameters_) {
+        entry_ = edit.entry;
+        parameters_ = edit.parameters;
+        known_.forget();
+    }
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const StepEntry& entry = *edit.entry;
+    const double words = price(edit);
+    SampleMask mask{sample_->mask(entry, edit.conditions), numbers_};
+    return words + (emulation_ != nullptr
+                        ? sample_->emulated(entry, edit.parameters, mask, *emulation_, known_, most - words)
+                        : sample_->score(entry, edit.parameters, mask, known_, {most - words, infinity}).bits);
 }
 
 namespace {
 
 // Takes the change if it costs less.
-bool improve(const Scorer& scorer, Trial& trial, const Edit& edit) {
-    const double cost = scorer(edit);
+bool improve(Scorer& scorer, Trial& trial, const Edit& edit) {
+    const double cost = scorer(edit, trial.cost);
     if (!(cost < trial.cost)) return false;
     trial = {edit, cost};
     return true;
 }
 
-void walk(const Scorer& scorer, Trial& trial, std::size_t which) {
+void walk(Scorer& scorer, Trial& trial, std::size_t which) {
     const Condition given = trial.edit.conditions[which];
     if (given.is == Condition::Is::equal) return;
     std::vector<double> values = scorer.sample().values(*given.property, trial.edit.entry->step);
@@ -60,7 +72,7 @@ void walk(const Scorer& scorer, Trial& trial, std::size_t which) {
 
 }  // namespace
 
-void drop_conditions(const Scorer& scorer, Trial& trial) {
+void drop_conditions(Scorer& scorer, Trial& trial) {
     for (std::size_t i = trial.edit.conditions.size(); i-- > 0;) {
         Edit edit = trial.edit;
         edit.conditions.erase(edit.conditions.begin() + static_cast<std::ptrdiff_t>(i));
@@ -69,7 +81,7 @@ void drop_conditions(const Scorer& scorer, Trial& trial) {
     }
 }
 
-void exchange_conditions(const Scorer& scorer, Trial& trial) {
+void exchange_conditions(Scorer& scorer, Trial& trial) {
     const PortStep step = trial.edit.entry->step;
     for (std::size_t i = 0; i < trial.edit.conditions.size(); ++i) {
         Edit edit = trial.edit;
@@ -83,16 +95,16 @@ void exchange_conditions(const Scorer& scorer, Trial& trial) {
     }
 }
 
-void walk_thresholds(const Scorer& scorer, Trial& trial) {
+void walk_thresholds(Scorer& scorer, Trial& trial) {
     for (std::size_t i = 0; i < trial.edit.conditions.size(); ++i) walk(scorer, trial, i);
 }
 
-void fit_parameter(const Scorer& scorer, Trial& trial) {
+void fit_parameter(Scorer& scorer, Trial& trial) {
     if (!trial.edit.entry->is_continuous || trial.edit.parameters.size() != 1) return;
     Edit edit = trial.edit;
-    const auto cost_at = [&](double p) {
+    const auto cost_at = [&](double p, double most) {
         edit.parameters[0] = p;
-        return scorer(edit);
+        return scorer(edit, most);
     };
     double best = trial.edit.parameters[0], cost = trial.cost;
     double reach = std::max(std::fabs(best) * 0.6, 0.2);
@@ -100,7 +112,7 @@ void fit_parameter(const Scorer& scorer, Trial& trial) {
         const double middle = best;
         for (int i = -6; i <= 6; ++i) {
             const double p = middle + reach * i / 6;
-            const double found = cost_at(p);
+            const double found = cost_at(p, cost);
             if (found < cost) {
                 cost = found;
                 best = p;
@@ -109,8 +121,8 @@ void fit_parameter(const Scorer& scorer, Trial& trial) {
     }
     for (const double scale : {1.0, 2.0, 4.0, 8.0, 10.0, 16.0, 100.0, 1000.0, 1e4}) {
         const double rounded = std::nearbyint(best * scale) / scale;
-        const double found = cost_at(rounded);
-        if (found <= cost * 1.05 + 0.0005 * scorer.sample().cost()) {
+        const double most = cost * 1.05 + 0.0005 * scorer.sample().cost(), found = cost_at(rounded, most);
+        if (found <= most) {
             best = rounded;
             cost = found;
             break;

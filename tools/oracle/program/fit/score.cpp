@@ -27,19 +27,31 @@ double bits_of(const Color& r) noexcept {
     return std::nearbyint(log * 0x1p16) * 0x1p-16;
 }
 
-TiedResidual residual_of(const Program& program, const ListPixel& pixel, const PortRounding& rounding, double unit) {
-    TiedResidual best{residual(value(program, pixel, rounding), pixel, unit)};
-    if (pixel.ties.empty()) return best;
+namespace {
+
+// Of each rounding.
+void find_residuals(const Program& program, const ListPixel& pixel, std::span<const PortRounding> roundings,
+                    double unit, std::span<TiedResidual> found) {
+    const EditedPixel& own = edited(program, pixel);
+    for (std::size_t r = 0; r < roundings.size(); ++r) found[r] = {residual(own.color(roundings[r]), pixel, unit)};
+    if (pixel.ties.empty()) return;
     ListPixel other{pixel.x,      pixel.y,          pixel.first,       {},        {},
                     pixel.behind, pixel.has_opaque, pixel.opaque_code, pixel.seen};
-    double cost = bits_of(best.off);
     for (std::size_t i = 0; i < pixel.ties.size(); ++i) {
         other.fragments = pixel.ties[i];
-        const Color off = residual(value(program, other, rounding), pixel, unit);
-        if (!(bits_of(off) < cost)) continue;
-        cost = bits_of(off);
-        best = {off, i >= tie_orders};
+        const EditedPixel& tied = edited(program, other);
+        for (std::size_t r = 0; r < roundings.size(); ++r) {
+            const Color off = residual(tied.color(roundings[r]), pixel, unit);
+            if (bits_of(off) < bits_of(found[r].off)) found[r] = {off, i >= tie_orders};
+        }
     }
+}
+
+}  // namespace
+
+TiedResidual residual_of(const Program& program, const ListPixel& pixel, const PortRounding& rounding, double unit) {
+    TiedResidual best;
+    find_residuals(program, pixel, {&rounding, 1}, unit, {&best, 1});
     return best;
 }
 
@@ -115,24 +127,52 @@ class Measure {
     Color sum_{};
 };
 
-}  // namespace
-
-Fitness measure(const Lists& lists, const Program& program, const PortRounding& rounding, std::size_t step) {
-    Measure m{rounding};
-    for (std::size_t i = 0; i < lists.pixels.size(); i += step)
-        m.add(lists.pixels[i], residual_of(program, lists.pixels[i], rounding, lists.unit()));
-    return m.found();
+std::vector<Fitness> measure_all(const Lists& lists, const Program& program, std::span<const PortRounding> roundings) {
+    std::vector<Measure> all{roundings.begin(), roundings.end()};
+    std::vector<TiedResidual> found(roundings.size());
+    for (const ListPixel& pixel : lists.pixels) {
+        find_residuals(program, pixel, roundings, lists.unit(), found);
+        for (std::size_t r = 0; r < all.size(); ++r) all[r].add(pixel, found[r]);
+    }
+    std::vector<Fitness> made;
+    for (const Measure& m : all) made.push_back(m.found());
+    return made;
 }
 
+constexpr std::size_t some_pixels = 2048;
+
+// The roundings under which some pixels cost least, least first.
+std::vector<PortRounding> likely(const Lists& lists, const Program& program, std::size_t most) {
+    const std::size_t step = lists.pixels.size() / some_pixels | 1;
+    struct Likely {
+        PortRounding rounding{};
+        double bits = 0;
+    };
+    std::vector<PortRounding> all = roundings(lists.format);
+    std::vector<Likely> sorted;
+    for (const PortRounding& rounding : all) sorted.push_back({rounding});
+    std::vector<TiedResidual> found(all.size());
+    for (std::size_t i = 0; i < lists.pixels.size() && all.size() > most; i += step) {
+        find_residuals(program, lists.pixels[i], all, lists.unit(), found);
+        for (std::size_t r = 0; r < all.size(); ++r) sorted[r].bits += bits_of(found[r].off);
+    }
+    std::ranges::stable_sort(sorted, {}, &Likely::bits);
+    all.clear();
+    for (std::size_t i = 0; i < std::min(most, sorted.size()); ++i) all.push_back(sorted[i].rounding);
+    return all;
+}
+
+}  // namespace
+
+Fitness measure(const Lists& lists, const Program& program, const PortRounding& rounding) {
+    return measure_all(lists, program, {&rounding, 1})[0];
+}
+
+PortRounding likely_rounding(const Lists& lists, const Program& program) { return likely(lists, program, 1)[0]; }
+
 Fitness best_fitness(const Lists& lists, const Program& program) {
-    constexpr std::size_t most = 8192, finalists = 2;
-    const std::size_t step = lists.pixels.size() <= most ? 1 : lists.pixels.size() / most | 1;
-    std::vector<Fitness> all;
-    for (const PortRounding& rounding : roundings(lists.format)) all.push_back(measure(lists, program, rounding, step));
-    std::ranges::stable_sort(all, {}, &Fitness::bits);
-    if (step == 1) return all[0];
-    all.resize(std::min(all.size(), finalists));
-    for (Fitness& f : all) f = measure(lists, program, f.rounding);
+    const std::size_t finalists = lists.pixels.size() < 2 * some_pixels ? 1 : 2;
+    const std::vector<Fitness> all = measure_all(lists, program, likely(lists, program, finalists));
     return std::ranges::min(all, {}, &Fitness::bits);
 }
 

@@ -47,11 +47,12 @@ struct Fitness {
     }
 };
 
-// Of every `step`th pixel.
-[[nodiscard]] Fitness measure(const Lists& lists, const Program& program, const PortRounding& rounding,
-                              std::size_t step = 1);
-// Under the rounding that costs least. Of large pictures some pixels choose the two that are tried on all.
+[[nodiscard]] Fitness measure(const Lists& lists, const Program& program, const PortRounding& rounding);
+// Under the rounding that costs least: some pixels choose the two that are tried on all.
 [[nodiscard]] Fitness best_fitness(const Lists& lists, const Program& program);
+
+// The rounding that some pixels choose.
+[[nodiscard]] PortRounding likely_rounding(const Lists& lists, const Program& program);
 
 // True if rounding alone explains what is left.
 [[nodiscard]] bool is_narrow(const Fitness& fitness) noexcept;

@@ -2,6 +2,7 @@
 #include "tools/oracle/program/fit/search.h"
 
 #include <algorithm>
+#include <memory>
 #include <set>
 
 #include "tools/oracle/program/steps/entries.h"
@@ -27,10 +28,14 @@ namespace {
 
 enum class Among { all, pixels };
 
-// A condition with the fragments, or pixels, of the sample that meet it.
+// Conditions with the fragments, or pixels, of the sample that meet them.
 struct ConditionMask {
     Condition condition{};
-    std::vector<char> mask{};
+    SampleMask mask;
+};
+struct ConditionMasks {
+    std::unique_ptr<MaskNumbers> numbers = std::make_unique<MaskNumbers>();
+    std::vector<ConditionMask> all{};
 };
 
 class Search {
@@ -79,7 +84,8 @@ class Search {
                 candidates.add({edit, sample_.score(edit).bits + price(edit)});
             }
             Trial trial = candidates.trials()[0];
-            fit_parameter(Scorer{sample_}, trial);
+            Scorer scorer{sample_};
+            fit_parameter(scorer, trial);
             best_.add(std::move(trial));
         }
     }
@@ -92,8 +98,8 @@ class Search {
 
     // The conditions of one more that select other fragments, or other pixels, of those given. Of conditions that
     // select the same the cheapest is kept.
-    [[nodiscard]] std::vector<ConditionMask> choices(const std::vector<char>& given, PortStep step, Among among) const {
-        std::vector<ConditionMask> all;
+    [[nodiscard]] ConditionMasks choices(const std::vector<char>& given, PortStep step, Among among) const {
+        ConditionMasks made;
         std::vector<char> mask(given.size());
         std::set<std::vector<char>> known{given};
         for (const FragmentProperty* property : by_price_) {
@@ -105,19 +111,20 @@ class Search {
             for (const Condition& condition : conditions_of(*property, here)) {
                 for (std::size_t i = 0; i < mask.size(); ++i)
                     mask[i] = given[i] != 0 && condition.holds(values[i]) ? 1 : 0;
-                if (known.insert(mask).second) all.push_back({condition, mask});
+                if (known.insert(mask).second) made.all.push_back({condition, {mask, *made.numbers}});
             }
         }
-        return all;
+        return made;
     }
 
-    void try_choices(const Edit& edit, const std::vector<ConditionMask>& all) {
+    void try_choices(const Edit& edit, ConditionMasks& masks) {
         const double words = price(edit);
-        for (const ConditionMask& choice : all) {
+        KnownCosts known;
+        for (ConditionMask& choice : masks.all) {
             if (work_ > most_work) return;
             work_ += sample_.fragments();
             const WantedScore wanted{best_.limit() - words, sample_.cost() - saving_.limit() + words};
-            const Score score = sample_.score(*edit.entry, edit.parameters, choice.mask, wanted);
+            const Score score = sample_.score(*edit.entry, edit.parameters, choice.mask, known, wanted);
             if (score.bits >= wanted.bits && score.saved <= wanted.saved) continue;
             Edit trial = edit;
             trial.conditions.push_back(choice.condition);
@@ -127,7 +134,8 @@ class Search {
 
     void try_conditions(const Edit& edit, Among among) {
         const std::vector<char> given = sample_.mask(*edit.entry, edit.conditions);
-        try_choices(edit, choices(given, edit.entry->step, among));
+        ConditionMasks masks = choices(given, edit.entry->step, among);
+        try_choices(edit, masks);
     }
 
     // Of each entry the variations that hit most fragments, or save most.
@@ -153,9 +161,8 @@ class Search {
 
     // Entries with every condition.
     void try_stumps() {
-        const std::vector<ConditionMask> of_fragments =
-            choices(std::vector<char>(sample_.fragments(), 1), PortStep::list, Among::all);
-        const std::vector<ConditionMask> of_pixels =
+        ConditionMasks of_fragments = choices(std::vector<char>(sample_.fragments(), 1), PortStep::list, Among::all);
+        ConditionMasks of_pixels =
             choices(std::vector<char>(sample_.pixels().size(), 1), PortStep::finish, Among::pixels);
         for (const Variation& v : promising())
             try_choices({v.entry, v.parameters, {}}, v.entry->step == PortStep::list ? of_fragments : of_pixels);
@@ -165,8 +172,9 @@ class Search {
         std::vector<Trial> best{best_.trials()};
         best.resize(std::min(best.size(), count));
         for (Trial& trial : best) {
-            walk_thresholds(Scorer{sample_}, trial);
-            fit_parameter(Scorer{sample_}, trial);
+            Scorer scorer{sample_};
+            walk_thresholds(scorer, trial);
+            fit_parameter(scorer, trial);
             best_.add(std::move(trial));
         }
     }
@@ -195,10 +203,9 @@ struct Closest {
     double cost = std::numeric_limits<double>::infinity();
 };
 Closest closest_of(const FitSample& sample, const std::vector<Emulation>& emulations, const Edit& edit) {
-    Closest closest;
-    for (const Emulation& emulation : emulations)
-        if (const double cost = Scorer{sample, emulation}(edit); cost < closest.cost) closest = {&emulation, cost};
-    return closest;
+    const std::vector<double> bits = sample.emulated(edit, emulations);
+    const auto least = std::ranges::min_element(bits);
+    return {&emulations[static_cast<std::size_t>(least - bits.begin())], price(edit) + *least};
 }
 
 // Other entries, with the conditions of the best trial, that cost as little: one of them may be plainer.
@@ -219,17 +226,16 @@ void add_alike(const FitSample& sample, const std::vector<Emulation>& emulations
 
 }  // namespace
 
-std::vector<Trial> search(const Lists& lists, const Program& base, const PortRounding& rounding) {
-    const FitSample few{lists, base, rounding, small_sample}, many{lists, base, rounding};
+std::vector<Trial> best_edits(const FitSample& few, const FitSample& many, std::span<const PortRounding> roundings) {
     std::vector<Emulation> emulations;
-    for (const PortRounding& r : roundings(lists.format)) emulations.push_back(many.emulation(r));
+    for (const PortRounding& r : roundings) emulations.push_back(many.emulation(r));
     std::vector<Trial> trials = Search{few}.run();
     Beam beam{24, 4};
     for (Trial& trial : trials) {
         const Closest closest = closest_of(many, emulations, trial.edit);
         trial.cost = closest.cost;
         if (trial.cost > 2 * beam.limit_of(8)) continue;
-        const Scorer scorer{many, *closest.emulation};
+        Scorer scorer{many, *closest.emulation};
         if (trial.cost < beam.limit_of(3) && trial.cost > 0.01 * many.cost()) exchange_conditions(scorer, trial);
         walk_thresholds(scorer, trial);
         fit_parameter(scorer, trial);
@@ -241,7 +247,8 @@ std::vector<Trial> search(const Lists& lists, const Program& base, const PortRou
     for (const StepEntry* entry : entries()) {
         if (entry->start == nullptr) continue;
         Trial trial{.edit = {entry, entry->start(nearest, farthest), {}}};
-        fit_parameters(Scorer{many}, trial);
+        Scorer scorer{many};
+        fit_parameters(scorer, trial);
         trial.cost = closest_of(many, emulations, trial.edit).cost;
         beam.add(std::move(trial));
     }

@@ -39,31 +39,39 @@ class Beam {
     std::vector<Trial> trials_{};
 };
 
-[[nodiscard]] std::vector<Trial> search(const Lists& lists, const Program& base, const PortRounding& rounding);
+// `few` and `many` pixels of the picture, as its base program leaves them.
+[[nodiscard]] std::vector<Trial> best_edits(const FitSample& few, const FitSample& many,
+                                            std::span<const PortRounding> roundings);
 
-// The cost of an edit on a sample with its price: by differences, or by emulation.
+// The cost of an edit on a sample with its price: by differences, or by emulation. It knows the pixels that it has
+// asked, as long as the entry and its parameters stay the same.
 class Scorer {
   public:
     explicit Scorer(const FitSample& sample) : sample_{&sample} {}
     Scorer(const FitSample& sample, const Emulation& emulation) : sample_{&sample}, emulation_{&emulation} {}
     [[nodiscard]] const FitSample& sample() const noexcept { return *sample_; }
-    [[nodiscard]] double operator()(const Edit& edit) const;
+    // What costs more than `most` is not scored to the end.
+    [[nodiscard]] double operator()(const Edit& edit, double most = std::numeric_limits<double>::infinity());
 
   private:
     const FitSample* sample_;
     const Emulation* emulation_ = nullptr;
+    const StepEntry* entry_ = nullptr;
+    std::vector<double> parameters_{};
+    MaskNumbers numbers_{};
+    KnownCosts known_{};
 };
 
 // Walks the thresholds of a trial's conditions over the values of the sample while that lowers the cost.
-void walk_thresholds(const Scorer& scorer, Trial& trial);
+void walk_thresholds(Scorer& scorer, Trial& trial);
 // Removes conditions without which the trial costs hardly more.
-void drop_conditions(const Scorer& scorer, Trial& trial);
+void drop_conditions(Scorer& scorer, Trial& trial);
 // Tries every other condition in the place of each.
-void exchange_conditions(const Scorer& scorer, Trial& trial);
+void exchange_conditions(Scorer& scorer, Trial& trial);
 // Fits a continuous parameter, and rounds it.
-void fit_parameter(const Scorer& scorer, Trial& trial);
+void fit_parameter(Scorer& scorer, Trial& trial);
 // Fits all parameters of an edit by damped Gauss-Newton with weights 1 / (1 + (r / 3)^2), and rounds them.
-void fit_parameters(const Scorer& scorer, Trial& trial);
+void fit_parameters(Scorer& scorer, Trial& trial);
 // Solves a x = b for a symmetric matrix without negative eigenvalues, by elimination.
 [[nodiscard]] std::vector<double> solved(std::vector<std::vector<double>> a, std::vector<double> b);
 // The number with the fewest digits between two numbers.

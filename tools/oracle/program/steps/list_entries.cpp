@@ -77,12 +77,16 @@ void exchange_with_next(PortLayers& layers, const SelectedFragments& s, Paramete
         }
 }
 
-void move_to_front(PortLayers& layers, const SelectedFragments& s, Parameters) {
-    std::ranges::stable_partition(layers, [&](const PortLayer& layer) { return s.has(layer); });
-}
-
-void move_to_back(PortLayers& layers, const SelectedFragments& s, Parameters) {
-    std::ranges::stable_partition(layers, [&](const PortLayer& layer) { return !s.has(layer); });
+template <bool are_selected_first>
+void divide(PortLayers& layers, const SelectedFragments& s, Parameters) {
+    thread_local PortLayers others;
+    others.clear();
+    std::erase_if(layers, [&](const PortLayer& layer) {
+        if (s.has(layer) == are_selected_first) return false;
+        others.push_back(layer);
+        return true;
+    });
+    layers.insert(layers.end(), others.begin(), others.end());
 }
 
 // Where another layer is: the one before, the one behind, or the nearest.
@@ -157,8 +161,8 @@ const StepEntry table[] = {
      .is_order = true,
      .edit = peel_with_bits},
     {.words = "are exchanged with the next ones behind", .price = 4, .edit = exchange_with_next},
-    {.words = "are composited in front of all others", .price = 4, .edit = move_to_front},
-    {.words = "are composited behind all others", .price = 4, .edit = move_to_back},
+    {.words = "are composited in front of all others", .price = 4, .edit = divide<true>},
+    {.words = "are composited behind all others", .price = 4, .edit = divide<false>},
     {.words = "are replaced by the ones before", .price = 5, .edit = take<From::before, What::all>},
     {.words = "are replaced by the ones behind", .price = 5, .edit = take<From::behind, What::all>},
     {.words = "are replaced by the nearest", .price = 5, .edit = take<From::nearest, What::all>},

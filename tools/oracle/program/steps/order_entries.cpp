@@ -17,14 +17,15 @@ template <auto key, SortTies ties = SortTies::by_depth>
 void sort(PortLayers& layers, const SelectedFragments& s, Parameters p) {
     thread_local PortLayers chosen;
     chosen.clear();
-    for (const PortLayer& layer : layers)
-        if (s.has(layer)) chosen.push_back(layer);
-    std::ranges::stable_sort(chosen, [&](const PortLayer& a, const PortLayer& b) {
+    const auto is_before = [&](const PortLayer& a, const PortLayer& b) {
         const double of_a = key(s.of(a), p), of_b = key(s.of(b), p);
         if (of_a != of_b || ties == SortTies::by_depth) return of_a < of_b;
         const bool is_earlier = s.of(a).submission < s.of(b).submission;
         return ties == SortTies::first_in_front ? is_earlier : s.of(a).submission > s.of(b).submission;
-    });
+    };
+    // Lists are short: one by one, without memory of a sort's own.
+    for (const PortLayer& layer : layers)
+        if (s.has(layer)) chosen.insert(std::ranges::upper_bound(chosen, layer, is_before), layer);
     auto next = chosen.begin();
     for (PortLayer& layer : layers)
         if (s.has(layer)) layer = *next++;
