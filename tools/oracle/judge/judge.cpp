@@ -97,7 +97,6 @@ class Judge {
         if (layers_->is_right()) return layers_->lost_at_ties() > 0 && is_of_one_mistake ? by_emulation() : by_layers();
         if (is_right_run) return by_emulation();
         if (layers_->is_explained()) {
-            if (layers_->is_explained_by_pairs() && is_fitted()) return;
             if (!layers_->wrong_colors().empty())
                 take(forgotten_alpha(input_, layers_->colors(), layers_->wrong_colors(), is_drawn_by()));
             return by_layers();

@@ -21,8 +21,7 @@ struct LayersVerdict;
 struct PictureDiagnosis;
 
 // single: layers, and single emulations of what they leave open (emulated.h). all: every emulation, and pairs of them.
-// Both fit a program to what is still open, or needs two mistakes of the layers (program/fit/fitting.h), of at most
-// 1,000,000 fragments.
+// Both fit a program to what is still open (program/fit/fitting.h), of at most 1,000,000 fragments.
 enum class Effort : std::uint8_t { single, all };
 
 enum class JudgedState : std::uint8_t {

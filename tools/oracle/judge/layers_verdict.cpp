@@ -27,12 +27,6 @@ bool LayersVerdict::is_explained() const noexcept {
     return !found.finding.empty() || !found.explanations.empty() || found.alpha.state == verdict::AlphaState::wrong;
 }
 
-bool LayersVerdict::is_explained_by_pairs() const noexcept {
-    return is_explained() && !single->found.explanations.empty() &&
-           std::ranges::all_of(single->found.explanations,
-                               [](const verdict::CheckedAccount& c) { return c.account.rules.size() > 1; });
-}
-
 bool LayersVerdict::is_by_other_rules() const noexcept {
     return single ? single->other_profile != nullptr : !samples->description.empty();
 }

@@ -20,9 +20,8 @@ struct LayersVerdict {
 
     [[nodiscard]] bool is_right() const noexcept;
     [[nodiscard]] bool is_undecided() const noexcept;
-    [[nodiscard]] bool is_explained() const noexcept;           // a mistake explains the whole picture
-    [[nodiscard]] bool is_explained_by_pairs() const noexcept;  // only two mistakes together explain it
-    [[nodiscard]] bool is_by_other_rules() const noexcept;      // of another profile or origin than those given
+    [[nodiscard]] bool is_explained() const noexcept;       // a mistake explains the whole picture
+    [[nodiscard]] bool is_by_other_rules() const noexcept;  // of another profile or origin than those given
     [[nodiscard]] std::uint64_t lost_at_ties() const noexcept;
     [[nodiscard]] const std::vector<std::uint32_t>& wrong_colors() const noexcept;  // pixels, ascending
     [[nodiscard]] verdict::Colors colors() const;

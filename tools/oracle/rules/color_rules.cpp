@@ -1,7 +1,10 @@
 // tools/oracle/rules/color_rules.cpp - the parts of StackMaker that apply rules (rule.h: the possible mistakes of a
 // port) to the colours of layers, to sums of layers and to the background.
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "scenes/numbers/srgb_encode.h"
 #include "tools/oracle/rules/structure.h"
@@ -29,8 +32,24 @@ float weight_of(const Fragment& f, float alpha, std::uint32_t n) noexcept {
     }
 }
 
-Rgba with_each(const Rgba& color, float (*change)(float)) {
-    return {change(color[0]), change(color[1]), change(color[2]), color[3]};
+// The same colours are asked under every hypothesis, and the power costs more than all else: the last ones are kept.
+template <auto change>
+float remembered(float v) {
+    struct Known {
+        std::uint32_t bits = 0;
+        float value = change(0);
+    };
+    constexpr int bits_of_place = 12;
+    thread_local std::vector<Known> known(std::size_t{1} << bits_of_place);
+    const auto bits = std::bit_cast<std::uint32_t>(v);
+    Known& at = known[bits * 2654435761u >> (32 - bits_of_place)];
+    if (at.bits != bits) at = {bits, change(v)};
+    return at.value;
+}
+
+template <auto change>
+Rgba with_each(const Rgba& color) {
+    return {remembered<change>(color[0]), remembered<change>(color[1]), remembered<change>(color[2]), color[3]};
 }
 
 }  // namespace
@@ -111,8 +130,8 @@ void StackMaker::recolor(const Rule& rule) {
                 break;
             case RuleKind::channel_lost: color[static_cast<int>(rule.n)] = 0; break;
             case RuleKind::decoded:
-            case RuleKind::blended_linear: color = with_each(color, scenes::decode_srgb); break;
-            case RuleKind::encoded: color = with_each(color, scenes::encode_srgb); break;
+            case RuleKind::blended_linear: color = with_each<scenes::decode_srgb>(color); break;
+            case RuleKind::encoded: color = with_each<scenes::encode_srgb>(color); break;
             default: return;
         }
     }
@@ -143,7 +162,7 @@ void StackMaker::set_background(const Rule& rule, const PixelList& pixel) {
             break;
         case RuleKind::decoded:
             if (rule.n == 2 || (rule.n == 1 && pixel.has_opaque))
-                stack_.background = with_each(stack_.background, scenes::decode_srgb);
+                stack_.background = with_each<scenes::decode_srgb>(stack_.background);
             break;
         case RuleKind::picture_encoded: stack_.finish = Finish::encoded; break;
         case RuleKind::picture_decoded:
@@ -156,7 +175,7 @@ void StackMaker::set_background(const Rule& rule, const PixelList& pixel) {
             break;
         }
         case RuleKind::blended_linear:
-            stack_.background = with_each(stack_.background, scenes::decode_srgb);
+            stack_.background = with_each<scenes::decode_srgb>(stack_.background);
             stack_.is_linear = true;
             break;
         default: break;

@@ -32,9 +32,6 @@ struct SceneFacts {
 // The rank of a mistake by how often ports make it: 0 the usual ones. Explanations that this scene cannot distinguish
 // are reported in this order.
 [[nodiscard]] int commonness_of(RuleKind kind) noexcept;
-// The order in which two rules are applied: first those that select layers, then those that order them, then those that
-// change colours.
-[[nodiscard]] int stage_of(RuleKind kind) noexcept;
 // One rule per kind; if the kind has parameters, the values with the smallest effect.
 [[nodiscard]] std::vector<Rule> one_of_each_kind(const SceneFacts& facts);
 

@@ -62,42 +62,6 @@ std::vector<Rules> survivors(const std::vector<Rules>& all, const SplitSample& p
     return left;
 }
 
-// Pairs of rules of different kinds, in the order in which they are applied. The candidates for pairs are the rules
-// that alone explain the most wrong pixels, then those that change any.
-std::vector<Rules> pairs_of(const std::vector<Rule>& rules, const SplitSample& parts, const Hypothesis& closest,
-                            const Setting& setting) {
-    constexpr std::size_t most_looked_at = 64, most_worth = 60;
-    const Compositor compositor{closest};
-    const auto some = std::span{parts.wrong}.first(std::min(parts.wrong.size(), most_looked_at));
-    struct Worth {
-        const Rule* rule = nullptr;
-        std::size_t explained = 0, changed = 0;
-    };
-    std::vector<Worth> all;
-    for (const Rule& rule : rules) all.push_back({&rule});
-    setting.work->for_each(rules.size(), [&](std::size_t i) {
-        StackMaker maker{setting, setting.work->share()};
-        for (const SplitPixel& pixel : some) {
-            if (maker.steps().is_over()) break;
-            const StackedPixel made = stacked({&rules[i], 1}, *pixel.sampled, maker);
-            if (is_unchanged(made, pixel)) continue;
-            ++all[i].changed;
-            all[i].explained += reaching(compositor, made, maker.steps()) != nullptr ? 1 : 0;
-        }
-    });
-    std::erase_if(all, [](const Worth& w) { return w.changed == 0; });
-    std::ranges::stable_sort(all, std::ranges::greater{}, [](const Worth& w) { return w.explained; });
-    all.resize(std::min(all.size(), most_worth));
-    std::vector<Rules> pairs;
-    for (const Worth& a : all)
-        for (const Worth& b : all) {
-            const int first = stage_of(a.rule->kind), second = stage_of(b.rule->kind);
-            if (a.rule->kind != b.rule->kind && (first < second || (first == second && a.rule->kind < b.rule->kind)))
-                pairs.push_back({*a.rule, *b.rule});
-        }
-    return pairs;
-}
-
 double bits_of(const CheckedAccount& checked) {
     const Pricing pricing{checked.account.hypothesis.result.storage};
     return bits_of(checked.account.hypothesis) + checked.bits +
@@ -308,17 +272,16 @@ const Families& MistakeSearch::likely(const Families& definite) {
     return likely_;
 }
 
-std::vector<CheckedAccount> MistakeSearch::found(const Families& definite, int most_rules, const RuleRegion& region) {
-    constexpr std::size_t least_of_pairs = 8;  // wrong pixels; with fewer, two mistakes cannot be distinguished
+std::vector<CheckedAccount> MistakeSearch::found(const Families& definite, const RuleRegion& region) {
     // Limits of the accounts that are tried on the whole picture: counts instead of times, so that the result is the
     // same on every machine.
-    constexpr std::size_t most_tried = 24, most_tried_again = 12, most_pairs_tried = 8;
+    constexpr std::size_t most_tried = 24, most_tried_again = 12;
     const Setting& setting = scene_.setting();
     const Hypothesis& hypothesis = closest_.account.hypothesis;
     std::vector<Rule> rules = rules_;
     for (Rule& rule : rules) rule.region = region;
-    if (setting.work->is_spent() || (most_rules > 1 && parts_.wrong.size() < least_of_pairs)) return {};
-    const std::vector<Rules> all = most_rules > 1 ? pairs_of(rules, parts_, hypothesis, setting) : singles(rules);
+    if (setting.work->is_spent()) return {};
+    const std::vector<Rules> all = singles(rules);
     const auto left_under = [&](const std::vector<Hypothesis>& wide) {
         if (parts_.noted != wide) note(parts_, wide, setting);
         return by_explained(survivors(all, parts_, wide, setting), parts_, hypothesis, setting);
@@ -328,9 +291,9 @@ std::vector<CheckedAccount> MistakeSearch::found(const Families& definite, int m
     const Families& first = likely(definite);
     const std::vector<Hypothesis> wide = widest(first);
     const std::vector<Rules> left = left_under(wide);
-    std::vector<CheckedAccount> accounts = whole(left, scene_, candidate_, first, hypothesis, parts_, sample_,
-                                                 most_rules > 1 ? most_pairs_tried : most_tried);
-    if (accounts.empty() && most_rules == 1 && !setting.work->is_spent()) {
+    std::vector<CheckedAccount> accounts =
+        whole(left, scene_, candidate_, first, hypothesis, parts_, sample_, most_tried);
+    if (accounts.empty() && !setting.work->is_spent()) {
         const std::vector<Hypothesis> wider = widest(definite);
         accounts = whole(wider == wide ? left : left_under(wider), scene_, candidate_, definite, hypothesis, parts_,
                          sample_, most_tried_again);

@@ -20,10 +20,9 @@ class MistakeSearch {
   public:
     MistakeSearch(const SceneFragments& scene, const Colors& candidate, const CheckedAccount& closest,
                   const Sample& sample);
-    // Accounts with `most_rules` rules, one or two, each of which holds for the whole picture; the best is first.
-    // `definite`: the hypotheses under which they must hold; `region`: the pixels at which the port makes the mistake.
-    [[nodiscard]] std::vector<CheckedAccount> found(const Families& definite, int most_rules,
-                                                    const RuleRegion& region = {});
+    // Accounts with a rule that holds for the whole picture; the best is first. `definite`: the hypotheses under which
+    // they must hold; `region`: the pixels at which the port makes the mistake.
+    [[nodiscard]] std::vector<CheckedAccount> found(const Families& definite, const RuleRegion& region = {});
     // The rules that explain the most wrong pixels of the sample, the best first.
     [[nodiscard]] std::vector<Lead> leads() const;
 

@@ -1,7 +1,7 @@
 // tools/oracle/verdict/verdict.cpp - decides in this order: the closest account of the right structure; if it is whole,
 // what remains to be asked of a right picture (right_picture.h); wider rounding, if it costs about as little; reversed
 // rows or columns; one mistake in the whole picture, then in the part with the wrong pixels, then under wider rounding;
-// two mistakes; leads.
+// leads.
 #include "tools/oracle/verdict/verdict.h"
 
 #include <algorithm>
@@ -215,15 +215,15 @@ Verdict found_at_length(SceneFragments& scene, const Colors& candidate, const Se
     work.begin_stage(0.6, 0.8);
     work.allow(limits.mistakes + of_fragments);
     MistakeSearch search{scene, candidate, verdict.right, sample};
-    const auto is_found = [&](const Families& some, int most_rules, const RuleRegion& region) {
-        verdict.explanations = search.found(some, most_rules, region);
+    const auto is_found = [&](const Families& some, const RuleRegion& region) {
+        verdict.explanations = search.found(some, region);
         verdict.is_stopped = work.is_cut_short();
         return !verdict.explanations.empty();
     };
-    if (is_found(all.definite, 1, {})) return verdict;
+    if (is_found(all.definite, {})) return verdict;
     if (const auto region = region_of(verdict.right.wrong_pixels, scene.width(), scene.height()))
-        if (is_found(all.definite, 1, *region)) return verdict;
-    if (is_found(all.coarse, 1, {}) || is_found(all.definite, 2, {})) return verdict;
+        if (is_found(all.definite, *region)) return verdict;
+    if (is_found(all.coarse, {})) return verdict;
     if (doubtful) return *std::move(doubtful);
     work.begin_stage(0.8, 0.9);
     work.allow(limits.leads);
