@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scenes/numbers/srgb_encode.h"
+#include "tools/oracle/rounding/remembered.h"
 
 namespace strata::oracle::verdict {
 
@@ -29,11 +30,11 @@ constexpr double srgb_error = 0x1p-21;   // of sRGB encoding in binary32
 }
 
 Interval encoded(Interval linear) noexcept {
-    const auto at = [](double v) { return double{scenes::encode_srgb(static_cast<float>(v))}; };
+    const auto at = [](double v) { return double{remembered<scenes::encode_srgb>(static_cast<float>(v))}; };
     return {at(linear.low) - srgb_error, at(linear.high) + srgb_error};
 }
 Interval decoded(Interval encoded) noexcept {
-    const auto at = [](double v) { return double{scenes::decode_srgb(static_cast<float>(v))}; };
+    const auto at = [](double v) { return double{remembered<scenes::decode_srgb>(static_cast<float>(v))}; };
     return {at(encoded.low) - srgb_error, at(encoded.high) + srgb_error};
 }
 

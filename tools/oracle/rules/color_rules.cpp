@@ -1,12 +1,10 @@
 // tools/oracle/rules/color_rules.cpp - the parts of StackMaker that apply rules (rule.h: the possible mistakes of a
 // port) to the colours of layers, to sums of layers and to the background.
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "scenes/numbers/srgb_encode.h"
+#include "tools/oracle/rounding/remembered.h"
 #include "tools/oracle/rules/structure.h"
 
 namespace strata::oracle::verdict {
@@ -30,21 +28,6 @@ float weight_of(const Fragment& f, float alpha, std::uint32_t n) noexcept {
                    within(power(std::min(1.0f, alpha * 10) + 0.01f, 3) * 1e8f * power(1 - 0.9f * f.shader_z, 3));
         default: return alpha;
     }
-}
-
-// The same colours are asked under every hypothesis, and the power costs more than all else: the last ones are kept.
-template <auto change>
-float remembered(float v) {
-    struct Known {
-        std::uint32_t bits = 0;
-        float value = change(0);
-    };
-    constexpr int bits_of_place = 12;
-    thread_local std::vector<Known> known(std::size_t{1} << bits_of_place);
-    const auto bits = std::bit_cast<std::uint32_t>(v);
-    Known& at = known[bits * 2654435761u >> (32 - bits_of_place)];
-    if (at.bits != bits) at = {bits, change(v)};
-    return at.value;
 }
 
 template <auto change>

@@ -303,13 +303,14 @@ std::optional<ResolvedVerdict> judged(const Samples& samples, const Colors& cand
     constexpr std::size_t few = 64, few_added = 32;
     const std::vector<ResolvedPixel> pixels = pixels_of(samples, candidate, within);
     const std::vector<Hypothesis> all = hypotheses(storage_of(candidate.code()));
-    std::vector<const ResolvedPixel*> some = deepest(pixels, few);
+    std::vector<const ResolvedPixel*> some;
     const auto add_some = [&](const std::vector<std::uint32_t>& numbers) {
         const std::size_t step = numbers.size() / few_added + 1;
         for (std::size_t k = 0; k < numbers.size(); k += step)
             if (const ResolvedPixel& pixel = pixels[numbers[k]]; !pixel.lists.empty()) some.push_back(&pixel);
     };
-    add_some(first);
+    add_some(first);  // they reject a hypothesis sooner than others
+    std::ranges::copy(deepest(pixels, few), std::back_inserter(some));
     StackMaker maker{samples[0]->setting()};
     std::optional<SamplesAccount> account = closest(all, candidate, some, maker, std::min(most_wrong, some.size()));
     if (!account) return std::nullopt;
