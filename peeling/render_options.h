@@ -55,6 +55,8 @@ struct RenderOptions {
     std::optional<float> alpha{};           // draws all materials as transparent, with their own alpha times this
     pipeline::Rgba background{0, 0, 0, 1};  // premultiplied, like images over an alpha below 1
     std::optional<pipeline::Fog> fog{};     // of all surfaces, not of the background
+    std::optional<std::vector<pipeline::Light>> lights{};  // default: the list's
+    pipeline::LightModel light_model{};                    // where there are lights
     pipeline::Termination termination{};
     pipeline::Formulation formulation = pipeline::Formulation::resolved;
     Sort sort{};                        // the order in which triangles are submitted

@@ -92,6 +92,9 @@ void recentre(Scene& scene) {
         set_origin(instance.model, minus(column(instance.model, 3), origin));
     for (SceneCamera& camera : scene.cameras) move_before(camera.view, origin);
     if (scene.own_view) move_before(scene.own_view->view, origin);
+    for (pipeline::Light& light : scene.list.lights)
+        for (std::size_t i = 0; i < 3; ++i)
+            light.position[i] = static_cast<float>(double{light.position[i]} - origin[i]);
     if (scene.list.light) move_before(scene.list.light->view, origin);
     scene.moved_by = minus({0, 0, 0}, origin);
     scene.bounds = bounds_of(scene.list);

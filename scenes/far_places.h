@@ -3,8 +3,8 @@
 // Rule     The step of a mesh is the distance between neighbouring binary32 numbers at its largest coordinate. A mesh
 //          whose step is more than a thousandth of its size has lost its shape, and a warning says so.
 //          recentre: a mesh that is farther from its origin than its size is moved by the least corner of its bounds,
-//          which its instances get back in binary64; then instances, cameras, the scene's own view and a
-//          light are moved so that the middle of the scene's bounds is the origin.
+//          which its instances get back in binary64; then instances, cameras, the scene's own view and
+//          lights are moved so that the middle of the scene's bounds is the origin.
 // Tests    tests/scenes/far_places_test.cpp
 #pragma once
 #include "scenes/scene.h"

@@ -38,6 +38,7 @@ set(strata_scenes_sources
   gltf/document/json.cpp
   gltf/document/uri.cpp
   gltf/gltf.cpp
+  gltf/lights.cpp
   gltf/instancing.cpp
   gltf/material.cpp
   gltf/mesh.cpp

@@ -62,6 +62,10 @@ void check_options(const RenderOptions& o) {
     if (o.fog) its.listed("fog.mode", o.fog->mode);
     if (const auto fault = o.fog ? fault_of(*o.fog) : std::nullopt)
         its.fail(std::string{"fog."} + fault->field, fault->expected, fault->found);
+    if (const auto fault = o.lights ? fault_of(*o.lights) : std::nullopt)
+        throw InputError("render options", fault->field, fault->expected, fault->found);
+    if (const auto fault = fault_of(o.light_model))
+        throw InputError("render options", "light_model." + fault->field, fault->expected, fault->found);
     if (o.alpha) its.finite("alpha", *o.alpha);
     if (o.depth) its.listed("depth", *o.depth);
     if (o.depth_path) its.listed("depth_path", *o.depth_path);

@@ -37,7 +37,9 @@ bool takes_quotient(const rasterizer::DepthRequest& depth) noexcept {
     return has_quotient(depth.path) || has_quotient(depth.reference);
 }
 
-PreparedLists::PreparedLists(Settings settings) : s_{std::move(settings)} {
+PreparedLists::PreparedLists(Settings settings)
+    : s_{std::move(settings)},
+      lighting_{s_.options.lights.value_or(s_.list.lights), s_.options.light_model, s_.profile.lighting} {
     // Lists that cannot be prepared are rejected now. Transparent lists are prepared when an algorithm draws them, in
     // its order and with its compared depth.
     check(s_.profile);
@@ -122,6 +124,7 @@ PrepareOptions PreparedLists::prepare_options(Selection selection) const {
                            .tile_size = 0,
                            .threads = s_.options.threads,
                            .fog = s_.options.fog,
+                           .lighting = lighting_.lights.empty() ? nullptr : &lighting_,
                            .offset_only = s_.options.offset_only,
                            .alteration = s_.options.vertex_alteration,
                            .samples = samples()};

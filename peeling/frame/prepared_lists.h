@@ -72,6 +72,7 @@ class PreparedLists {
     [[nodiscard]] pipeline::Ordering ordering(ListOrder order) const;
 
     Settings s_;
+    pipeline::Lighting lighting_;
     std::array<TimedList, 4> transparent_{};  // indexed by ListOrder
     TimedList opaque_{}, second_{};
 };

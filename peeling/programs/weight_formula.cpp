@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "peeling/programs/fixed_passes/log_exp.h"
+#include "rasterizer/base/log_exp.h"
 #include "rasterizer/base/numerics.h"
 
 namespace strata::peeling {

@@ -1,10 +1,10 @@
 // peeling/programs/weight_formula.h - the weight of a fragment by a formula of its depth, its distance and its alpha.
 //
 // Rule     The steps work on a stack of binary32 values, and each rounds its result once: sums, products and quotients
-//          as IEEE 754 does, `exponential` and `power` from a series in binary64 (fixed_passes/log_exp.h). A power with
-//          a whole exponent from 2 to 8 that is written as a number is a product from the left. power(x, y) of x > 0
-//          is exp(y log x); of 0 it is 0, 1 or infinity for y > 0, = 0, < 0; of x < 0 it is no number. `least` is b if
-//          b < a, else a; `greatest` is b if b > a, else a. A result that is negative or no number is the weight 0.
+//          as IEEE 754 does, `exponential` and `power` from a series in binary64 (rasterizer/base/log_exp.h). A power
+//          with a whole exponent from 2 to 8 that is written as a number is a product from the left. power(x, y) of x >
+//          0 is exp(y log x); of 0 it is 0, 1 or infinity for y > 0, = 0, < 0; of x < 0 it is no number. `least` is b
+//          if b < a, else a; `greatest` is b if b > a, else a. A result that is negative or no number is the weight 0.
 // Source   peeling/reference/algorithms.md 18.3.
 // Tests    tests/peeling/programs/weight_formula_test.cpp; the text: tests/tools/request/weight_words_test.cpp
 #pragma once

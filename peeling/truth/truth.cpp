@@ -162,6 +162,8 @@ RealImage real_image(const Image& image) {
 
 RealImage render_chain(const ChainScene& scene, const Chain& chain) {
     if (scene.list.light) throw InputError("scene", "light", "no light that casts shadows", "one");
+    if (!scene.options.lights.value_or(scene.list.lights).empty())
+        throw InputError("scene", "lights", "no lights", "some");
     if (scene.options.fog) throw InputError("scene", "fog", "no fog", "one");
     for (const pipeline::Instance& instance : scene.list.instances)
         if (scene.list.meshes[instance.mesh].primitive != pipeline::Primitive::triangles)

@@ -38,6 +38,7 @@ DeviceProfile geforce3() {
     p.alpha_test = AlphaTestPrecision::unorm8;
     p.texture_filter = TextureFilterPrecision::unorm8;
     p.fog = FogRule::bytes;
+    p.lighting = LightingRule::float22;
     p.has_d16 = true;
     p.has_depth_clamp = true;
     p.has_signed_blend = true;

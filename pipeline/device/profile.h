@@ -38,6 +38,9 @@ enum class TextureFilterPrecision : std::uint8_t { unorm8, single, code_lerps, c
 // How fog is computed: OpenGL's formulas in binary32, or NV2A's registers and tables of bytes (fog-and-lighting.md 1
 // and 2).
 enum class FogRule : std::uint8_t { single, bytes };
+// How vertices are lit and a secondary colour is added: OpenGL's formulas in binary32, or NV2A's unit of 22-bit floats
+// and sums of bytes (lighting.md).
+enum class LightingRule : std::uint8_t { single, float22 };
 // The corner of the image at which memory begins: upper_left as in Direct3D and under glClipControl(GL_UPPER_LEFT);
 // lower_left as OpenGL draws into framebuffer objects without that call. All rules apply in memory order (devices.md
 // 3.8); output images have the upper row first.
@@ -75,6 +78,7 @@ struct DeviceProfile {
     TextureFilterPrecision texture_filter = TextureFilterPrecision::single;
     Depth24 depth24 = Depth24::codes;
     FogRule fog = FogRule::single;
+    LightingRule lighting = LightingRule::single;
 
     // Formats
     bool has_d16 = false, has_d24 = true, has_d32f = false;

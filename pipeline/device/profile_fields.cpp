@@ -271,6 +271,8 @@ constexpr std::array fields{
                                           unmeasured, "[M] swiftshader-rasterizer.md 2.5"}),
     choice<&Profile::fog>("fog", {"[M] fog-and-lighting.md 2: 53 pictures", "[A] fog-and-lighting.md 1.2", ours,
                                   "[A] fog-and-lighting.md 1.2"}),
+    choice<&Profile::lighting>("lighting",
+                               {"[M] fog-and-lighting.md 5: captures", "[A] lighting.md 3", ours, "[A] lighting.md 3"}),
     boolean<&Profile::has_d16>("has_d16", {"[M] devices.md 5: Z16", "[M] devices.md 5: Z16 only from G200 on", ours,
                                            opengl, webgl, "[S] devices.md 5: DXGI_FORMAT_D16_UNORM"}),
     boolean<&Profile::has_d24>("has_d24", {"[M] devices.md 5: Z24S8", "[M] devices.md 5: Z24S8", ours, opengl, webgl,

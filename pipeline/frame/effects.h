@@ -26,6 +26,7 @@ inline void add_needs_of_color(rasterizer::FragmentNeeds& needs, const MaterialN
     needs.texcoord |= materials.texcoord;
     needs.units |= materials.shadow;
     needs.fog |= materials.fog;
+    needs.secondary |= materials.secondary;
 }
 
 // The fragment arrays that a geometry pass over triangles of these materials must compute.

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <array>
 
-#include "pipeline/vertices/float22.h"
+#include "pipeline/lighting/float22.h"
 #include "rasterizer/base/nv20_arithmetic.h"
 
 namespace strata::pipeline {

@@ -13,8 +13,8 @@
 
 #include "pipeline/geforce3/combiner.h"
 #include "pipeline/geforce3/texture_shader.h"
+#include "pipeline/lighting/fog_unit.h"
 #include "pipeline/region/region.h"
-#include "pipeline/vertices/fog_unit.h"
 
 namespace strata::pipeline {
 

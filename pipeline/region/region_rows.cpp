@@ -84,7 +84,8 @@ bool FragmentSource::sums_suit_rows(const PassState& state) {
             (are_sums(Format::rgba16f, Format::r16f) && shared_.profile().half_rounding == HalfRounding::nearest_even &&
              shared_.profile().blend_storage == BlendStorage::target)) &&
            shared_.profile().raster.color == rasterizer::ColorInterpolation::exact_plane && may_walk_rows(list) &&
-           draws_rows(state, list) && list.needs.shadow == 0 && !list.needs.fog && !needs_of_tile(list).texcoord;
+           draws_rows(state, list) && list.needs.shadow == 0 && !list.needs.fog && !list.needs.secondary &&
+           !needs_of_tile(list).texcoord;
 }
 
 rasterizer::DepthDrawn FragmentSource::draw_sum_rows(const PassState& state) {

@@ -76,6 +76,7 @@ bool FragmentSource::find_fragments(const PassState& state, const PreparedDraw& 
     kept.texcoord = state.needs.texcoord;
     kept.units = state.needs.units;
     kept.fog = state.needs.fog;
+    kept.secondary = state.needs.secondary;
     if (!record(list, kept) || !sort_for(state)) return false;
     const bool has_order = selection.keeps == KeptFragments::ends || selection.keeps == KeptFragments::group ||
                            selection.outside == Outside::writes_alike;

@@ -231,9 +231,10 @@ void FragmentSource::for_each_batch(const PreparedDraw& list, const PassState& s
                                                       needs.color && materials.texcoord, &list == shared_.frame.opaque,
                                                       shared_.statistics.iterations});
     FragmentNeeds looked_at = needs;
-    looked_at.texcoord = state.needs.texcoord;  // for the program; colours are recorded with texture, shadow and fog
+    looked_at.texcoord = state.needs.texcoord;  // for the program; colours are recorded as they are shaded
     looked_at.units = state.needs.units;
     looked_at.fog = state.needs.fog;
+    looked_at.secondary = state.needs.secondary;
     if (may_record(list) && state.primitives.empty() && record(list, looked_at)) {
         shared_.statistics.taken.reads_record = true;
         visit_all(looked_at, sink);

@@ -17,6 +17,7 @@
 #include "pipeline/frame/check_pass.h"
 #include "pipeline/frame/effects.h"
 #include "pipeline/frame/pass_counters.h"
+#include "pipeline/lighting/add_secondary.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shared.h"
 #include "pipeline/region/region_targets.h"
@@ -141,8 +142,8 @@ Outputs& Stages::start_batch(const FragmentBatch& batch) {
     return out;
 }
 
-// Texture, shadow, fog, MASK (fragment-stages.md 2). MASK compares the material's own alpha, so the alpha scale is
-// applied after it; its precision is that of the frame's colour format, whatever the pass's targets are.
+// Texture, shadow, colour sum, fog, MASK (fragment-stages.md 2). MASK compares the material's own alpha, so the alpha
+// scale is applied after it; its precision is that of the frame's colour format, whatever the pass's targets are.
 void Stages::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out) {
     shared_.statistics.fragments_drawn += static_cast<std::uint64_t>(batch.count);
     shared_.count({.fragments_rasterized = static_cast<std::uint64_t>(batch.count)});
@@ -155,6 +156,7 @@ void Stages::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out)
                 batch.color[c][i] *= shared_.scratch.texel[c][i];
     }
     if (shaded_.shadow != 0) cast_shadow(*shared_.frame.shadow, shared_.profile(), batch, shared_.scratch.texel);
+    if (shaded_.secondary) add_secondary(shared_.profile().lighting, batch);
     if (shaded_.fog) mix_fog(*shared_.frame.fog, shared_.profile().fog, batch);
     if (!material.mask.enabled) return;
     const bool eight_bit = is_eight_bit_alpha(shared_.profile().alpha_test, info(shared_.frame.color_format).type);

@@ -6,7 +6,7 @@
 
 #include "pipeline/device/profile.h"
 #include "pipeline/formats/unorm8.h"
-#include "pipeline/vertices/fog_unit.h"
+#include "pipeline/lighting/fog_unit.h"
 #include "rasterizer/chip/truncated_weights.h"
 
 namespace strata::pipeline {

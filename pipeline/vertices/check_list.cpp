@@ -100,6 +100,8 @@ void check(const DrawList& list) {
         check_material(its, list.materials[i], i, list.textures.size());
     check_instances(its, list);
     if (list.light) check_light(its, *list.light);
+    if (const auto fault = fault_of(list.lights))
+        throw InputError("draw list", fault->field, fault->expected, fault->found);
 }
 
 void check(const View& view) { Requirements{"view"}.listed("vertex_path", view.vertex_path); }

@@ -8,6 +8,7 @@
 
 #include "pipeline/device/vertex_path.h"
 #include "pipeline/formats/texture.h"
+#include "pipeline/lighting/light.h"
 #include "rasterizer/base/vector.h"
 #include "rasterizer/rules/primitive.h"
 
@@ -87,6 +88,7 @@ struct ShadowLight {
 // A whole scene. Instances are drawn in their order, and each instance's triangles in the order of its indices.
 struct DrawList {
     std::optional<ShadowLight> light{};
+    std::vector<Light> lights{};  // that a file brings; at most most_lights
     std::vector<Mesh> meshes;
     std::vector<Material> materials;
     std::vector<Texture> textures;

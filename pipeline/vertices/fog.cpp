@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "pipeline/device/profile.h"
-#include "pipeline/vertices/fog_unit.h"
+#include "pipeline/lighting/fog_unit.h"
 
 namespace strata::pipeline {
 

@@ -23,14 +23,6 @@ namespace strata::pipeline {
 
 namespace {
 
-// The determinant of the upper 3 x 3. Its sign tells whether an instance is mirrored, which exchanges facing
-// (pipeline/reference/vertices.md 6).
-double linear_determinant(const Matrix& m) {
-    const auto a = [&](std::size_t row, std::size_t column) { return m[column][row]; };
-    return a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) - a(0, 1) * (a(1, 0) * a(2, 2) - a(1, 2) * a(2, 0)) +
-           a(0, 2) * (a(1, 0) * a(2, 1) - a(1, 1) * a(2, 0));
-}
-
 bool is_selected(const Material& material, Selection selection) {
     if (selection == Selection::all) return true;
     return (material.alpha_mode == AlphaMode::blend) == (selection == Selection::transparent);
@@ -77,13 +69,13 @@ enum class Indices : std::uint8_t { copied, lent };
 
 // Appends an instance's vertices, its indices from soup.indices[first_index] on if they are copied, and its run.
 void append(const DrawList& list, const Instance& instance, const View& view, const PrepareOptions& options,
-            Indices indices, SoupVertices& vertices, std::size_t first_index, rasterizer::TriangleSoup& soup) {
+            const std::shared_ptr<const FrameLights>& lights, Indices indices, SoupVertices& vertices,
+            std::size_t first_index, rasterizer::TriangleSoup& soup) {
     const Mesh& mesh = list.meshes[instance.mesh];
     const Material& material = list.materials[instance.material];
     const auto base = static_cast<std::uint32_t>(vertices.count());
-    vertices.add(
-        {mesh, material, view, instance.model, material.alpha_mode == AlphaMode::mask ? 1.0f : options.alpha_scale},
-        mesh.positions.size());
+    const float alpha_scale = material.alpha_mode == AlphaMode::mask ? 1.0f : options.alpha_scale;
+    vertices.add({mesh, material, view, instance.model, alpha_scale, lights}, mesh.positions.size());
     const std::size_t copied = indices == Indices::copied ? mesh.indices.size() : 0;
     parallel_for((copied + chunk - 1) / chunk, options.threads, [&](std::size_t c) {
         const std::size_t begin = c * chunk, end = std::min(copied, begin + chunk);
@@ -114,8 +106,9 @@ rasterizer::TriangleSoup lay_out(const DrawList& list, const View& view, const P
     for_each_selected([&](const Instance& i) { count += list.meshes[i.mesh].indices.size(); });
     if (indices == Indices::copied) soup.indices.resize(count);
     std::size_t at = 0;
+    const std::shared_ptr<const FrameLights> lights = frame_lights(options.lighting, view);
     for_each_selected([&](const Instance& instance) {
-        append(list, instance, view, options, indices, vertices, at, soup);
+        append(list, instance, view, options, lights, indices, vertices, at, soup);
         at += list.meshes[instance.mesh].indices.size();
     });
     soup.vertices.resize(vertices.count());
@@ -129,23 +122,42 @@ void write_all(const SoupVertices& vertices, int threads, rasterizer::TriangleSo
     });
 }
 
-// The vertex values that the options request in addition to position and colour, in this order: r and q, fog, then
-// texture units.
+[[nodiscard]] bool has_secondary(const PrepareOptions& options) noexcept {
+    return options.lighting != nullptr && !options.lighting->lights.empty() &&
+           options.lighting->model.separates_specular;
+}
+
+// The secondary colours of both faces, each with alpha 0.
+void add_secondary_colors(const VertexStage& stage, std::size_t vertex, std::vector<float>& values) {
+    const LitVertex lit = stage.lit(vertex);
+    for (const LitFace& face : {lit.front, lit.back}) {
+        values.insert(values.end(), face.secondary.begin(), face.secondary.end());
+        values.push_back(0.0f);
+    }
+}
+
+// The vertex values that the options request in addition to position and colour, in this order: r and q, fog,
+// secondary colours, then texture units.
 rasterizer::VertexExtras vertex_extras(const DrawList& list, const View& view, const rasterizer::RasterState& state,
                                        const rasterizer::RasterRules& rules, FogRule fog,
                                        const PrepareOptions& options) {
     rasterizer::VertexExtras extras;
     extras.has_rq = options.depth_quotient;
     extras.has_fog = options.fog.has_value();
+    extras.has_secondary = has_secondary(options);
     extras.has_units = std::ranges::any_of(options.units, &CoordinateUnit::enabled);
     extras.stride = (extras.has_rq ? 2u : 0u) + (extras.has_fog ? 1u : 0u) +
+                    (extras.has_secondary ? 2u * rasterizer::color_channels : 0u) +
                     (extras.has_units ? 4 * rasterizer::texture_units : 0u);
+    const std::shared_ptr<const FrameLights> lights =
+        extras.has_secondary ? frame_lights(options.lighting, view) : nullptr;
     for (const Instance& instance : list.instances) {
         if (extras.stride == 0 || !is_selected(list.materials[instance.material], options.selection)) continue;
         const Mesh& mesh = list.meshes[instance.mesh];
         const Matrix to_eye = product(view.view, instance.model);
         const VertexTransform eye{view.vertex_path, to_eye, identity, to_eye};
         const VertexTransform rows = quotient_rows(view, instance.model, state, rules);
+        const VertexStage stage{mesh, list.materials[instance.material], view, instance.model, 1.0f, lights};
         const VertexCoordinates coordinates{options.units, view, instance.model};
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
             const std::array<float, 4> rq =
@@ -156,6 +168,7 @@ rasterizer::VertexExtras vertex_extras(const DrawList& list, const View& view, c
                     mesh.w.empty() ? eye(mesh.positions[i]) : eye(mesh.positions[i], mesh.w[i]);
                 extras.values.push_back(vertex_fog(*options.fog, fog, std::fabs(e[2])));
             }
+            if (extras.has_secondary) add_secondary_colors(stage, i, extras.values);
             if (!extras.has_units) continue;
             for (const auto& unit :
                  coordinates.at(mesh.positions[i], mesh.texcoords.empty() ? Vec2{} : mesh.texcoords[i]))
@@ -279,6 +292,7 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     }
     if (options.receives_shadow) prepared.needs.shadow = shadow_coordinates;
     prepared.needs.fog = options.fog.has_value();
+    prepared.needs.secondary = has_secondary(options);
     for (const Material& material : list.materials) {
         prepared.materials.push_back(material_stage(list, material, options.alpha_scale));
         if (!is_selected(material, options.selection)) continue;
@@ -301,7 +315,7 @@ void bin_triangles(PreparedDraw& list, int tile_size, int threads) {
 
 // Stops as soon as all needs of the list are found.
 MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles, std::size_t sample) {
-    MaterialNeeds needs{.shadow = list.needs.shadow, .fog = list.needs.fog};
+    MaterialNeeds needs{.shadow = list.needs.shadow, .fog = list.needs.fog, .secondary = list.needs.secondary};
     for (std::size_t i = 0; i < triangles.size() && needs != list.needs; ++i) {
         const MaterialStage& material = list.materials[list.of_sample(sample).triangles[triangles[i]].material];
         needs.texcoord |= material.texture != nullptr;

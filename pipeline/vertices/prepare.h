@@ -4,7 +4,8 @@
 // Rule     Matrices are multiplied in binary64 (projection * view * model) and rounded once to binary32; positions are
 //          transformed by the view's vertex path (vertex_transform.h); nv20 also has its own division by w. Lighting is
 //          two-sided and diffuse: rgb x (0.25 + 0.75 |N.L|), L the unit vector from the view's centre to the eye, per
-//          vertex in binary32, on the frame's colour values.
+//          vertex in binary32, on the frame's colour values. A frame with lights takes vertex_light.h's colours
+//          instead.
 // Source   pipeline/reference/vertices.md 1.2, 5 and 6.
 // Tests    tests/pipeline/vertices/prepare_test.cpp
 #pragma once
@@ -43,11 +44,14 @@ struct MaterialNeeds {
     rasterizer::UnitMask shadow = 0;
     // Every fragment's colour is mixed with fog.
     bool fog = false;
+    // A secondary colour is added to every fragment's.
+    bool secondary = false;
     MaterialNeeds& operator|=(const MaterialNeeds& other) noexcept {
         texcoord |= other.texcoord;
         color |= other.color;
         shadow |= other.shadow;
         fog |= other.fog;
+        secondary |= other.secondary;
         return *this;
     }
     friend bool operator==(const MaterialNeeds&, const MaterialNeeds&) = default;
@@ -127,6 +131,8 @@ struct PrepareOptions {
     bool receives_shadow = false;
     // Mix every colour with fog.
     std::optional<Fog> fog{};
+    // Light lit vertices by these lights instead of the one at the eye. Null: none.
+    const Lighting* lighting = nullptr;
     // The list has been checked (check_list.h) and has not changed since.
     bool is_checked = false;
     // The meshes or materials that polygon offset moves, by name; empty: all.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "pipeline/vertices/matrix.h"
 #include "pipeline/vertices/vertex_lanes.h"
@@ -11,16 +12,10 @@
 namespace strata::pipeline {
 namespace {
 
-// Cofactors of the upper 3x3, column-major: the transform of normals, up to a positive factor and, for mirrored models,
-// a sign that does not affect |N.L|.
+// The transform of normals; for mirrored models its sign does not affect |N.L|.
 std::array<float, 9> normal_matrix(const Matrix& m) {
-    const auto a = [&](std::size_t row, std::size_t column) { return m[column][row]; };
     std::array<float, 9> n{};
-    for (std::size_t column = 0; column < 3; ++column)
-        for (std::size_t row = 0; row < 3; ++row) {
-            const std::size_t r1 = (row + 1) % 3, r2 = (row + 2) % 3, c1 = (column + 1) % 3, c2 = (column + 2) % 3;
-            n[3 * column + row] = static_cast<float>(a(r1, c1) * a(r2, c2) - a(r1, c2) * a(r2, c1));
-        }
+    std::ranges::transform(cofactors_of(m), n.begin(), [](double c) { return static_cast<float>(c); });
     return n;
 }
 
@@ -35,7 +30,7 @@ Vec3 light_direction(const Matrix& view) {
 }  // namespace
 
 VertexStage::VertexStage(const Mesh& mesh, const Material& material, const View& view, const Matrix& model,
-                         float alpha_scale)
+                         float alpha_scale, std::shared_ptr<const FrameLights> lights)
     : mesh_{mesh},
       material_{material},
       clip_{view.vertex_path, product(product(view.projection, view.view), model), view.projection,
@@ -43,7 +38,20 @@ VertexStage::VertexStage(const Mesh& mesh, const Material& material, const View&
       normal_{normal_matrix(model)},
       light_{light_direction(view.view)},
       alpha_scale_{alpha_scale},
-      is_lit_{!material.unlit && !mesh.normals.empty()} {}
+      is_lit_{!material.unlit && !mesh.normals.empty()} {
+    if (lights != nullptr && is_lit_) lights_ = std::make_shared<VertexLight>(std::move(lights), view, model);
+}
+
+Rgba VertexStage::color(const Rgba& material, std::size_t i) const {
+    const Rgba own = mesh_.colors.empty() ? Rgba{1, 1, 1, 1} : mesh_.colors[i];
+    return {material.r * own.r, material.g * own.g, material.b * own.b, material.a * own.a};
+}
+
+LitVertex VertexStage::lit(std::size_t i) const {
+    if (!lights_) return {};
+    return (*lights_)(mesh_.positions[i], mesh_.w.empty() ? 1.0f : mesh_.w[i], mesh_.normals[i],
+                      color(material_.front, i), color(material_.back, i));
+}
 
 float VertexStage::light_of(const Vec3& n) const {
     float world[3];
@@ -62,6 +70,11 @@ rasterizer::ClipVertex VertexStage::vertex(std::size_t i, const std::array<float
         v.front[c] = (material_.front[c] * color[c]) * light;
         v.back[c] = (material_.back[c] * color[c]) * light;
     }
+    if (lights_) {
+        const LitVertex lit = this->lit(i);
+        std::ranges::copy(lit.front.primary, v.front.begin());
+        std::ranges::copy(lit.back.primary, v.back.begin());
+    }
     v.front[3] = (material_.front[3] * color[3]) * alpha_scale_;
     v.back[3] = (material_.back[3] * color[3]) * alpha_scale_;
     if (!mesh_.texcoords.empty()) v.texcoord = {mesh_.texcoords[i].x, mesh_.texcoords[i].y};
@@ -78,7 +91,7 @@ void VertexStage::run(std::size_t begin, std::span<rasterizer::ClipVertex> out) 
         VertexLanes block;
         const std::size_t first = begin + done;
         kernels->transform(*clip_.separate_matrix(), &mesh_.positions[first], block);
-        if (is_lit_)
+        if (is_lit_ && !lights_)
             kernels->light(normal_, light_, &mesh_.normals[first], block);
         else
             block.light.fill(1.0f);
@@ -89,7 +102,7 @@ void VertexStage::run(std::size_t begin, std::span<rasterizer::ClipVertex> out) 
     for (; done < out.size(); ++done) {
         const std::size_t i = begin + done;
         const auto position = is_affine ? clip_(mesh_.positions[i]) : clip_(mesh_.positions[i], mesh_.w[i]);
-        out[done] = vertex(i, position, is_lit_ ? light_of(mesh_.normals[i]) : 1.0f);
+        out[done] = vertex(i, position, is_lit_ && !lights_ ? light_of(mesh_.normals[i]) : 1.0f);
     }
 }
 

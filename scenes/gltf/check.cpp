@@ -10,10 +10,10 @@ namespace strata::scenes {
 namespace {
 
 // Extensions that a file may require. An extension that is used without being required is ignored with a warning.
-constexpr std::array<std::string_view, 7> implemented{"EXT_mesh_gpu_instancing", "KHR_materials_pbrSpecularGlossiness",
-                                                      "KHR_materials_unlit",     "KHR_materials_variants",
-                                                      "KHR_mesh_quantization",   "KHR_node_visibility",
-                                                      "KHR_texture_transform"};
+constexpr std::array<std::string_view, 8> implemented{
+    "EXT_mesh_gpu_instancing", "KHR_lights_punctual",    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_unlit",     "KHR_materials_variants", "KHR_mesh_quantization",
+    "KHR_node_visibility",     "KHR_texture_transform"};
 
 bool is_implemented(const std::string& name) {
     return std::find(implemented.begin(), implemented.end(), name) != implemented.end();
@@ -22,7 +22,6 @@ bool is_implemented(const std::string& name) {
 // What a file looks like without an extension; "" if that is not known.
 std::string effect_of(const std::string& extension) {
     constexpr std::pair<std::string_view, std::string_view> effects[]{
-        {"KHR_lights_punctual", ": the light is at the eye instead"},
         {"KHR_materials_emissive_strength", ": what glows is darker"},
         {"KHR_materials_volume", ": nothing is tinted by the way of light through it"},
         {"KHR_materials_ior", ": nothing is refracted"},
@@ -136,6 +135,7 @@ void check_document(const JsonAt& root, Warnings& warnings) {
     faults.add(of_data);
     check_cameras(root, faults);
     check_nodes(root, warnings, faults);
+    check_lights(root, faults);
     faults.report();
     if (root.size("animations") > 0)
         warnings.add("/animations", "animations are ignored: nodes, joints and morph weights stay as written");

@@ -32,7 +32,8 @@ void check_meshes(const JsonAt& root, Warnings& warnings, Faults& faults);
 void check_cameras(const JsonAt& root, Faults& faults);
 void check_nodes(const JsonAt& root, Warnings& warnings, Faults& faults);  // nodes, scenes, scene
 
-void check_skins(const JsonAt& root, Faults& faults);  // after accessors
+void check_skins(const JsonAt& root, Faults& faults);   // after accessors
+void check_lights(const JsonAt& root, Faults& faults);  // and the nodes' references to them (lights.cpp)
 
 // How a user can remove an extension that is not read, in parentheses; "" if no way is known.
 [[nodiscard]] std::string way_out_of(const std::string& extension);

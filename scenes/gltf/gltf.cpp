@@ -1,5 +1,5 @@
-// scenes/gltf/gltf.cpp - loads a glTF file as a scene: container, JSON, checks, then meshes, materials, instances and
-// cameras.
+// scenes/gltf/gltf.cpp - loads a glTF file as a scene: container, JSON, checks, then meshes, materials, instances,
+// cameras and lights.
 #include "scenes/gltf/gltf.h"
 
 #include <algorithm>
@@ -49,6 +49,7 @@ class SceneBuilder {
             const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(placed.node)];
             if (node.mesh >= 0 && !placed.is_hidden) add_instances(node.mesh, placed);
             if (node.camera >= 0) add_camera(node, placed);
+            if (!placed.is_hidden) add_light(placed);
         }
         scene_.bounds = bounds_of(scene_.list);
         return std::move(scene_);
@@ -176,6 +177,16 @@ class SceneBuilder {
             camera.znear = c.orthographic.znear, camera.zfar = c.orthographic.zfar;
         }
         scene_.cameras.push_back(std::move(camera));
+    }
+
+    // The light of a node, if it has one.
+    void add_light(const PlacedNode& placed) {
+        const auto light = light_of(document_.at("nodes", static_cast<std::size_t>(placed.node)), document_.root());
+        if (!light) return;
+        if (scene_.list.lights.size() == pipeline::most_lights)
+            return warnings_.add(location_of(placed).pointer,
+                                 "more than 8 lights, which is what the fixed function has: it is off");
+        scene_.list.lights.push_back(to_light(*light, placed, location_of(placed), options_.color_space));
     }
 
     const Document& document_;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <filesystem>
 
 #include "pipeline/vertices/check_list.h"
@@ -22,6 +23,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 using pipeline::Instance;
+using pipeline::Light;
 using pipeline::Material;
 using pipeline::Mesh;
 using pipeline::Primitive;
@@ -81,6 +83,23 @@ void light_fields(Io& io, L& light) {
     io.real("offset_factor", light.offset_factor);
     io.real("offset_units", light.offset_units);
     io.flag("percentage_closer", light.percentage_closer);
+}
+
+template <class Io, class L>
+void lamp_fields(Io& io, L& light) {
+    io.choice("type", light.type);
+    for (const auto& [key, of] :
+         {std::pair{"ambient", &light.ambient}, std::pair{"diffuse", &light.diffuse},
+          std::pair{"specular", &light.specular}, std::pair{"position", &light.position},
+          std::pair{"direction", &light.direction}, std::pair{"attenuation", &light.attenuation}})
+        io.reals(key, components(*of));
+    // JSON has no infinity.
+    std::optional<float> range = light.range;
+    if (!std::isfinite(light.range)) range.reset();
+    io.if_any("range", range, [](auto& inner, const std::string& key, auto& value) { inner.real(key, value); });
+    if constexpr (!std::is_const_v<L>) light.range = range.value_or(pipeline::Light{}.range);
+    io.real("cutoff", light.cutoff);
+    io.real("exponent", light.exponent);
 }
 
 template <class Io, class V>
@@ -276,6 +295,7 @@ ordered_json scene_json(const Scene& scene, pipeline::ColorSpace space, PackFile
     io.optional("light", scene.list.light, [](JsonWriter& outer, const std::string& key, const ShadowLight& light) {
         outer.nested(key, light, light_fields<JsonWriter, const ShadowLight>);
     });
+    if (!scene.list.lights.empty()) io.list("lights", scene.list.lights, lamp_fields<JsonWriter, const Light>);
     return std::move(io.object);
 }
 
@@ -311,6 +331,7 @@ Scene read_pack_scene(const std::string& folder, const json& manifest) {
     io.optional("light", scene.list.light, [](JsonReader& outer, const std::string& key, ShadowLight& light) {
         outer.nested(key, light, light_fields<JsonReader, ShadowLight>);
     });
+    if (io.has("lights")) io.list("lights", scene.list.lights, lamp_fields<JsonReader, Light>);
     io.end();
     top.nested("view", scene.own_view.emplace(), view_fields<JsonReader, pipeline::View>);
     return scene;

@@ -16,7 +16,7 @@ import specification
 
 LIBRARIES = {
     "rasterizer": ["base", "rules", "coverage", "set_up", "chip", "values", "walk"],
-    "pipeline": ["formats", "device", "vertices", "stages", "textures", "geforce3", "frame", "fragments", "region"],
+    "pipeline": ["formats", "device", "lighting", "vertices", "stages", "textures", "geforce3", "frame", "fragments", "region"],
     "peeling": ["programs", "loops", "algorithms", "audit", "", "frame", "truth"],
     "scenes": ["numbers", "", "gltf/document", "exr", "images", "files", "models", "packs", "procedural", "gltf"],
     "tools": ["port", "lab/hardware_check/drawing", "lab/hardware_check/suites", "request", "oracle", "lab/probe/kit", "lab/probe/files", "lab/probe/search", "library",

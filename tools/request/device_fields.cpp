@@ -8,6 +8,7 @@
 #include "rasterizer/set_up/check_input.h"
 #include "tools/request/choices.h"
 #include "tools/request/groups.h"
+#include "tools/request/light_words.h"
 #include "tools/request/make_field.h"
 
 namespace strata::tools {
@@ -243,6 +244,28 @@ std::vector<OptionField> depth_fields() {
     };
 }
 
+// The lights of a scene, and what they find on its surfaces.
+std::vector<OptionField> light_fields() {
+    using enum OptionGroup;
+    return {
+        usual(field<&PictureRequest::render, &RenderOptions::lights>(
+            targets,
+            {"lights", "none|LIGHT[/LIGHT...]",
+             "glLight: up to eight of directional,DX,DY,DZ or point,X,Y,Z[,A0,A1,A2] or "
+             "spot,X,Y,Z,DX,DY,DZ,CUTOFF[,EXPONENT[,A0,A1,A2]] in the scene's space, with color=R:G:B, ambient=R:G:B "
+             "or range=D behind (default: the file's; with none a light at the eye)",
+             "none, or lights with / between them, such as directional,0,-1,0/point,1,2,3,color=1:0.5:0"},
+            to_lights, lights_text)),
+        field<&PictureRequest::render, &RenderOptions::light_model>(
+            targets,
+            {"light-model", "PART[,PART...]",
+             "glLightModel and the material of all surfaces: ambient=R:G:B, specular=R:G:B, shininess=N, "
+             "emission=R:G:B, local-viewer, two-sided, separate-specular (default ambient=0.2:0.2:0.2)",
+             "parts such as specular=1:1:1,shininess=32,two-sided"},
+            to_light_model, light_model_text),
+    };
+}
+
 // Fog, targets, and what ends a peel.
 std::vector<OptionField> target_fields() {
     using enum OptionGroup;
@@ -283,6 +306,7 @@ std::vector<OptionField> target_fields() {
 
 std::vector<OptionField> device_fields() {
     std::vector<OptionField> all = depth_fields();
+    std::ranges::move(light_fields(), std::back_inserter(all));
     std::ranges::move(target_fields(), std::back_inserter(all));
     return all;
 }

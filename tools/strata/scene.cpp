@@ -75,6 +75,13 @@ std::vector<std::string> materials_with_cutoffs(const pipeline::DrawList& list, 
 // In the order of the enum.
 constexpr std::array alpha_modes{pipeline::AlphaMode::opaque, pipeline::AlphaMode::mask, pipeline::AlphaMode::blend};
 
+// Their kinds, in the order of the file.
+std::vector<std::string> lights_of(const pipeline::DrawList& list) {
+    std::vector<std::string> kinds;
+    for (const pipeline::Light& light : list.lights) kinds.emplace_back(enum_name(light.type));
+    return kinds;
+}
+
 ordered_json to_json(const scenes::Scene& scene) {
     ordered_json modes = ordered_json::object(), textures = ordered_json::array(), cameras = ordered_json::array();
     for (const auto mode : alpha_modes) {
@@ -112,6 +119,7 @@ ordered_json to_json(const scenes::Scene& scene) {
             {"opaque_with_alpha", ignored_alpha},
             {"textures", textures},
             {"cameras", cameras},
+            {"lights", lights_of(scene.list)},
             {"extensions", scene.extensions},
             {"bounds", bounds},
             {"moved_by", components(scene.moved_by)},
@@ -198,6 +206,7 @@ std::string describe(const scenes::Scene& scene) {
     if (!scene.opaque_with_alpha.empty()) table.rows.push_back({"alpha lost", ignored_alpha_text(scene)});
     table.rows.push_back({"textures", with_commas(textures)});
     table.rows.push_back({"cameras", with_commas(cameras)});
+    if (!scene.list.lights.empty()) table.rows.push_back({"lights", with_commas(lights_of(scene.list))});
     table.rows.push_back({"extensions", with_commas(scene.extensions)});
     table.rows.push_back({"bounds", bounds_text(scene.bounds)});
     if (scene.moved_by != Vec3d{0, 0, 0})

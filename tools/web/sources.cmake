@@ -22,6 +22,7 @@ set(strata_web_sources
   ${request}/option_fields.cpp
   ${request}/sample_fields.cpp
   ${request}/values.cpp
+  ${request}/light_words.cpp
   ${request}/weight_words.cpp
   ${request}/view_fields.cpp
   ${strata_scenes_sources})

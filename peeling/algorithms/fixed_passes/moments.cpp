@@ -11,11 +11,11 @@
 #include <array>
 
 #include "peeling/algorithms/entry.h"
-#include "peeling/programs/fixed_passes/log_exp.h"
 #include "peeling/programs/fixed_passes/moment_bound.h"
 #include "peeling/programs/fixed_passes/moment_quantization.h"
 #include "peeling/programs/fixed_passes/weighted.h"
 #include "peeling/programs/sums.h"
+#include "rasterizer/base/log_exp.h"
 
 namespace strata::peeling::listing::moments {
 

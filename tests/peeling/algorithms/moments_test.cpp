@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "peeling/programs/fixed_passes/log_exp.h"
 #include "peeling/programs/fixed_passes/moment_bound.h"
+#include "rasterizer/base/log_exp.h"
 #include "tests/peeling/eighths.h"
 #include "tests/peeling/expectations.h"
 #include "tests/peeling/units_off.h"
@@ -12,8 +12,8 @@
 namespace {
 
 using namespace strata::testing;
-using strata::peeling::exp_of_minus;
-using strata::peeling::minus_log;
+using strata::exp_of_minus;
+using strata::minus_log;
 using strata::peeling::Moments;
 using strata::peeling::RenderOptions;
 using strata::peeling::RenderResult;

@@ -7,14 +7,14 @@
 #include <limits>
 #include <random>
 
-#include "peeling/programs/fixed_passes/log_exp.h"
+#include "rasterizer/base/log_exp.h"
 #include "tests/peeling/units_off.h"
 
 namespace {
 
-using strata::peeling::exponential;
+using strata::exponential;
+using strata::natural_log;
 using strata::peeling::is_complete;
-using strata::peeling::natural_log;
 using strata::peeling::weight_by;
 using strata::peeling::WeightFormula;
 using strata::peeling::WeightInputs;

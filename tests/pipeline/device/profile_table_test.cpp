@@ -136,6 +136,7 @@ constexpr FieldOfDevices device_table[] = {
      {"unorm8", "single", "single", "single", "code_lerps_fused", "code_lerps", "single_lerps", "single", "single"}},
     {"depth24", {"codes", "codes", "codes", "codes", "codes", "codes", "codes", "binary32", "codes"}},
     {"fog", {"bytes", "single", "single", "single", "single", "single", "single", "single", "single"}},
+    {"lighting", {"float22", "single", "single", "single", "single", "single", "single", "single", "single"}},
     {"has_d16", {"true", "false", "false", "true", "true", "true", "true", "true", "true"}},
     {"has_d24", {"true", "true", "true", "true", "true", "true", "true", "true", "true"}},
     {"has_d32f", {"false", "true", "true", "true", "true", "true", "true", "true", "true"}},
@@ -226,6 +227,7 @@ const std::vector<NamesOfField> choice_names{
     {"texture_filter", {"unorm8", "single", "code_lerps", "code_lerps_fused", "single_lerps"}},
     {"depth24", {"codes", "binary32"}},
     {"fog", {"single", "bytes"}},
+    {"lighting", {"single", "float22"}},
     {"sample_positions", {"standard", "nv20"}},
     {"resolve", {"codes_half_up", "single"}},
     {"alpha_to_coverage", {"nearest", "up", "down"}},
@@ -343,6 +345,7 @@ TEST_CASE("setting a choice sets the member that its key names to the enumerator
     CHECK((set("denormals", "keep") && p.denormals == DenormalRule::keep));
     CHECK((set("texture_filter", "unorm8") && p.texture_filter == TextureFilterPrecision::unorm8));
     CHECK((set("fog", "bytes") && p.fog == FogRule::bytes));
+    CHECK((set("lighting", "float22") && p.lighting == LightingRule::float22));
     CHECK_FALSE(set("raster.subpixel_bits", "13"));
     CHECK_FALSE(set("raster.subpixel_bits", "-1"));
     CHECK((set("raster.subpixel_bits", "0") && p.raster.subpixel_bits == 0));

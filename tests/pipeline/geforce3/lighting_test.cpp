@@ -1,10 +1,9 @@
 // Tests the lighting unit against the same sums in binary64, within the error of 14-bit numbers, and its flags against
 // the table of pipeline/reference/fog-and-lighting.md 5.4.
-#include "pipeline/geforce3/lighting.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "pipeline/lighting/lighting_unit.h"
 #include "tests/rasterizer/support.h"
 
 namespace {

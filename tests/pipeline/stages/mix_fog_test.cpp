@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "pipeline/device/profile.h"
-#include "pipeline/vertices/fog_unit.h"
+#include "pipeline/lighting/fog_unit.h"
 #include "tests/rasterizer/rational.h"
 #include "tests/rasterizer/support.h"
 

@@ -1,6 +1,6 @@
 // Tests the 22-bit floats of the lighting unit against rationals (rational.h) cut by the rules of
 // pipeline/reference/fog-and-lighting.md 3, and its tables against big integers.
-#include "pipeline/vertices/float22.h"
+#include "pipeline/lighting/float22.h"
 
 #include <catch2/catch.hpp>
 

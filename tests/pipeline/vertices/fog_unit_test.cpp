@@ -1,6 +1,6 @@
 // Tests the fog of NV2A: factors against rationals and the formulas of pipeline/reference/fog-and-lighting.md 2, tables
 // against powers of two by long multiplication, and special values against the list there.
-#include "pipeline/vertices/fog_unit.h"
+#include "pipeline/lighting/fog_unit.h"
 
 #include <boost/multiprecision/cpp_dec_float.hpp>
 #include <catch2/catch.hpp>

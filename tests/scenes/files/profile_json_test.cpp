@@ -125,6 +125,7 @@ TEST_CASE("missing later fields have the values of the behaviour before them sin
                                            "fog",
                                            "has_d24f",
                                            "has_unordered_access",
+                                           "lighting",
                                            "min_samples",
                                            "origin",
                                            "raster.area_sign",

@@ -87,6 +87,23 @@ TEST_CASE("a pack keeps lines and points and has no key for triangles") {
     }
 }
 
+TEST_CASE("a pack keeps a file's lights, and has no key for them without any") {
+    using pipeline::LightType;
+    const strata::test::OwnFolder folder;
+    Scene scene = load_scene("random:triangles=2,seed=1", {});
+    scene.own_view = orbit_view(scene.bounds, 33, 21, 1.25);
+    scene.list.lights = {{.ambient = {0.1f, 0, 0.3f}, .direction = {1, -2, 0.5f}},
+                         {.type = LightType::point, .position = {1, 2, 3}, .attenuation = {0, 0.5f, 1}, .range = 7},
+                         {.type = LightType::spot, .diffuse = {2, 1, 0}, .cutoff = 30, .exponent = 4.5f}};
+    write_scene(scene, pipeline::ColorSpace::encoded, folder.path());
+    CHECK(load_scene(folder.path(), {}).list.lights == scene.list.lights);
+    CHECK_FALSE(read_manifest(folder.path()).at("scene").at("lights").at(0).contains("range"));
+    const strata::test::OwnFolder unlit;
+    scene.list.lights.clear();
+    write_scene(scene, pipeline::ColorSpace::encoded, unlit.path());
+    CHECK_FALSE(read_manifest(unlit.path()).at("scene").contains("lights"));
+}
+
 TEST_CASE("a pack is rejected where it is damaged or where something missing is requested") {
     const strata::test::OwnFolder folder;
     Scene scene = load_scene("planes:count=1,cells=1", {});

@@ -86,6 +86,8 @@ constexpr std::array pass_effects{
                "a program looks at colour, or a MASK material must be shaded", "no program looks at colour"},
     PassEffect{"texture coordinates", Effect::texcoord, [](const PassRecord& p) { return p.needs.texcoord; },
                "colour is looked at and a material has a texture", "nothing samples"},
+    PassEffect{"colour sum", Effect::none, [](const PassRecord& p) { return p.needs.secondary; },
+               "colour is looked at, and lights with separate-specular", "no lights with separate-specular"},
     PassEffect{"fog", Effect::none, [](const PassRecord& p) { return p.needs.fog; }, "colour is looked at, and --fog",
                "no --fog"},
     PassEffect{"program depth", Effect::shader_z, [](const PassRecord& p) { return p.needs.shader_z; },
@@ -236,10 +238,15 @@ class Planner {
         add(effect, !names.empty(), names.empty() ? idle : called + names, 0, 0);
     }
 
+    // "lit materials: teapot" with the light at the eye, else "3 lights on lit materials: teapot".
     void add_scene() {
+        const peeling::RenderOptions& render = job_.scene->options.render;
+        const std::size_t lights = render.lights.value_or(list().lights).size();
         add_geometry_row(
             "lighting, at the vertices", [](const Material& m) { return !m.unlit; },
-            "lit materials: ", "every material is unlit");
+            lights == 0 ? "lit materials: "
+                        : fmt::format("{} {} on lit materials: ", lights, lights == 1 ? "light" : "lights"),
+            "every material is unlit");
         add_geometry_row(
             "culling", [](const Material& m) { return !m.double_sided; },
             fmt::format("drops {} triangles in the algorithm's passes; single-sided: ", setup_.culled),

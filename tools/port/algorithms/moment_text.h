@@ -6,7 +6,7 @@
 
 namespace strata::port {
 
-// float minus_log(float), float exp_of_minus(float): as in peeling/programs/fixed_passes/log_exp.h, rounded once.
+// float minus_log(float), float exp_of_minus(float): as in rasterizer/base/log_exp.h, rounded once.
 inline constexpr auto log_exp_text = R"(
 double log_of_2() { return packDouble2x32(uvec2(0xfefa39efu, 0x3fe62e42u)); }
 float minus_log(float x) {

@@ -5,7 +5,7 @@
 #include <bit>
 #include <span>
 
-#include "pipeline/geforce3/lighting.h"
+#include "pipeline/lighting/lighting_unit.h"
 #include "pipeline/region/fragment_path.h"
 #include "tools/lab/hardware_check/drawing/fixed_pipeline.h"
 #include "tools/lab/hardware_check/drawing/host_matrices.h"

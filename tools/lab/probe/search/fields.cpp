@@ -72,6 +72,7 @@ constexpr Unprobed unprobed[]{
     {"raster.perspective_coordinates", "no scene has a texture"},
     {"texture_filter", "no scene has a texture"},
     {"fog", "no scene has fog"},
+    {"lighting", "no scene has lights"},
     {"raster.lines", "no scene has lines"},
     {"raster.points", "no scene has points"},
     {"raster.sample_divisor", "no scene has several samples per pixel"},

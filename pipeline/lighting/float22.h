@@ -1,4 +1,4 @@
-// pipeline/vertices/float22.h - the 22-bit floats of NV2A's lighting unit, which computes vertex lighting, fog and
+// pipeline/lighting/float22.h - the 22-bit floats of NV2A's lighting unit, which computes vertex lighting, fog and
 // point sizes of the fixed pipeline; and the reciprocal root of its 32-bit unit.
 //
 // Rule     A number is a binary32 whose 10 lowest bits are 0: 14 significant bits. Products and sums are cut toward

@@ -1,4 +1,4 @@
-// pipeline/vertices/fog_unit.h - the fog of NV2A: what a vertex contributes, and a pixel's factor.
+// pipeline/lighting/fog_unit.h - the fog of NV2A: what a vertex contributes, and a pixel's factor.
 //
 // Rule     Linear functions interpolate the coordinate x, rounded to 22 bits; exponential ones v = bias + multiplier x
 //          in the lighting unit's 22-bit floats. A pixel's factor is 8 bits: linear functions cut (bias + multiplier x
@@ -10,7 +10,7 @@
 #include <array>
 #include <cstdint>
 
-#include "pipeline/vertices/float22.h"
+#include "pipeline/lighting/float22.h"
 #include "rasterizer/base/vector.h"
 
 namespace strata::pipeline {

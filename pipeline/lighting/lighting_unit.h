@@ -1,4 +1,4 @@
-// pipeline/geforce3/lighting.h - NV2A's lighting of a vertex by the fixed pipeline: the primary and the secondary
+// pipeline/lighting/lighting_unit.h - NV2A's lighting of a vertex by the fixed pipeline: the primary and the secondary
 // colour from its normal, its colours and up to eight lights.
 //
 // Rule     Constants are rounded to 22-bit floats; terms are added in the order emission and scene ambient, then each
@@ -10,9 +10,9 @@
 #include <array>
 #include <cstdint>
 
-namespace strata::pipeline {
+#include "pipeline/lighting/light.h"
 
-using Three = std::array<float, 3>;
+namespace strata::pipeline {
 
 // Where a colour of the material comes from. `constant`: it is contained in the lights' colours.
 enum class MaterialSource : std::uint8_t { constant, vertex_diffuse, vertex_specular };
@@ -40,6 +40,7 @@ struct LightingRegisters {
     bool has_specular = false, separates_specular = false, has_local_eye = false, has_specular_alpha = false;
     MaterialSource emission{}, ambient{}, diffuse{}, specular{};
     Three scene_ambient{}, material_emission{};
+    Three eye_direction{};  // toward the eye, where it is not local
     float material_alpha = 1.0f;
     std::array<float, 6> specular_params{};
     std::array<LightRegisters, 8> light{};
@@ -54,6 +55,9 @@ struct UnlitVertex {
 struct LitColors {
     std::array<float, 4> primary{}, secondary{};
 };
+
+// The vector divided by its length as the unit does it, rounded to 22 bits; 0 stays.
+[[nodiscard]] Three unit_of_lighting(const Three& v) noexcept;
 
 [[nodiscard]] LitColors light_vertex(const LightingRegisters& registers, const UnlitVertex& vertex) noexcept;
 

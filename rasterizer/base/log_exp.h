@@ -1,5 +1,5 @@
-// peeling/programs/fixed_passes/log_exp.h - logarithm and exponential of binary32 numbers without the C library, so
-// that the bits are the same on every computer. Used by the algorithm moments and by formulas of weights.
+// rasterizer/base/log_exp.h - logarithm, exponential and power of binary32 numbers without the C library, so that the
+// bits are the same on every computer. Used by lights, by the algorithm moments and by formulas of weights.
 //
 // Rule     Both are series in binary64, each operation rounded, truncated where the remainder is below 2^-62; the sum
 //          is rounded once to binary32. The result is within 0.5 + 2^-20 units in the last place of the real value.
@@ -14,7 +14,7 @@
 
 #include "rasterizer/base/numerics.h"
 
-namespace strata::peeling {
+namespace strata {
 inline namespace strict {
 
 inline constexpr double log_of_2 = 0x1.62e42fefa39efp-1;
@@ -52,10 +52,16 @@ inline constexpr double log_of_2 = 0x1.62e42fefa39efp-1;
 // -log(x). Precondition: x is a normal number in (0, 1].
 [[nodiscard]] constexpr float minus_log(float x) noexcept { return static_cast<float>(-natural_log(x)); }
 
+// x^y, and 0 for x = 0 with y above 0, 1 for y = 0. Precondition: x is finite and at least 0, y finite and at least 0.
+[[nodiscard]] constexpr float power(float x, float y) noexcept {
+    if (y == 0.0f) return 1.0f;
+    return x > 0.0f ? exponential(static_cast<double>(y) * natural_log(x)) : 0.0f;
+}
+
 // exp(-x). Precondition: x >= 0.
 [[nodiscard]] constexpr float exp_of_minus(float x) noexcept {
     return x <= 105.0f ? exponential(-static_cast<double>(x)) : 0.0f;
 }
 
 }  // namespace strict
-}  // namespace strata::peeling
+}  // namespace strata

@@ -1,10 +1,10 @@
-// pipeline/geforce3/lighting.cpp - the lighting unit's sums (lighting.h).
-#include "pipeline/geforce3/lighting.h"
+// pipeline/lighting/lighting_unit.cpp - the lighting unit's sums (lighting_unit.h).
+#include "pipeline/lighting/lighting_unit.h"
 
 #include <algorithm>
 
 #include "pipeline/formats/unorm8.h"
-#include "pipeline/vertices/float22.h"
+#include "pipeline/lighting/float22.h"
 #include "rasterizer/base/nv20_arithmetic.h"
 
 namespace strata::pipeline {
@@ -125,12 +125,9 @@ class Unit {
     [[nodiscard]] float specular(const LightRegisters& light, const Given& given) const noexcept {
         if (light.kind == LightKind::infinite && !r_.has_local_eye)
             return infinite_specular(params_, f22::dot(normal_, rounded(light.half_vector)));
-        // Without a local eye the direction to it is a register that nothing sets: 0.
+        const Three to_eye = rounded(r_.has_local_eye ? offset_of(difference({}, v_.position)).unit : r_.eye_direction);
         Three half = given.direction;
-        if (r_.has_local_eye) {
-            const Three to_eye = rounded(offset_of(difference({}, v_.position)).unit);
-            for (std::size_t i = 0; i < 3; ++i) half[i] = f22::add(to_eye[i], half[i]);
-        }
+        for (std::size_t i = 0; i < 3; ++i) half[i] = f22::add(to_eye[i], half[i]);
         return local_specular(params_, normal_, half, given.attenuation);
     }
 
@@ -145,6 +142,8 @@ class Unit {
 [[nodiscard]] float byte_value(float v) noexcept { return unorm8_value(f22::to_byte(f22::cut(double{v}))); }
 
 }  // namespace
+
+Three unit_of_lighting(const Three& v) noexcept { return rounded(offset_of(v).unit); }
 
 LitColors light_vertex(const LightingRegisters& registers, const UnlitVertex& vertex) noexcept {
     LitColors lit;
