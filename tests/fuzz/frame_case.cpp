@@ -224,6 +224,32 @@ void choose_sampling(ByteSource& bytes, const DeviceProfile& profile, peeling::R
     options.raster.sample.reset();
 }
 
+// Up to three lights of any kind, and what all surfaces share. Without bytes, none.
+void choose_lights(ByteSource& bytes, peeling::RenderOptions& o) {
+    const auto vector = [&] {
+        return Vec3{bytes.fraction() - 0.5f, bytes.fraction() - 0.5f, bytes.fraction() + 0.125f};
+    };
+    const auto color = [&] { return Vec3{bytes.fraction(), bytes.fraction(), bytes.fraction()}; };
+    const int count = bytes.below(4);
+    if (count == 0) return;
+    for (o.lights.emplace(); static_cast<int>(o.lights->size()) < count;) {
+        pipeline::Light light{.type = static_cast<pipeline::LightType>(bytes.below(3)), .position = vector()};
+        light.ambient = light.specular = color();
+        light.direction = vector();
+        light.attenuation = {0.5f, bytes.fraction(), bytes.fraction()};
+        if (bytes.one_in(4)) light.range = 4 * bytes.fraction() + 0.125f;
+        light.cutoff = 10 + 80 * bytes.fraction();
+        light.exponent = static_cast<float>(bytes.below(9));
+        o.lights->push_back(light);
+    }
+    pipeline::LightModel& model = o.light_model;
+    model.has_local_viewer = bytes.one_in(2);
+    model.is_two_sided = bytes.one_in(2);
+    model.separates_specular = !bytes.one_in(3);
+    model.specular = color();
+    model.shininess = static_cast<float>(bytes.below(33));
+}
+
 std::vector<ExecutionWay> ways(ByteSource& bytes) {
     std::vector<ExecutionWay> all{way(bytes, literal, Simd::best), way(bytes, rasterizing, Simd::best),
                                   way(bytes, replaying, Simd::best)};
@@ -259,6 +285,7 @@ FrameCase make_case(std::span<const std::uint8_t> data) {
         choose_sample(bytes, frame.profile, frame.options.raster);
     if (frame.profile.raster.coverage == rasterizer::CoverageRule::snapped_edges)
         choose_sampling(bytes, frame.profile, frame.options);
+    choose_lights(bytes, frame.options);
     return frame;
 }
 

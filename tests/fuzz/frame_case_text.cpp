@@ -17,6 +17,20 @@ void print_numbers(std::ostream& out, const char* name, const Numbers& numbers) 
     out << '}';
 }
 
+void print_lights(std::ostream& out, const std::vector<pipeline::Light>& lights, const pipeline::LightModel& model) {
+    out << "\nlights: local viewer " << model.has_local_viewer << ", two sides " << model.is_two_sided << ", separate "
+        << model.separates_specular << ", shininess " << model.shininess;
+    print_numbers(out, ", specular", components(model.specular));
+    for (const pipeline::Light& light : lights) {
+        out << "\nlight: type " << static_cast<int>(light.type) << ", range " << light.range << ", cutoff "
+            << light.cutoff << ", exponent " << light.exponent;
+        print_numbers(out, ", ambient and specular", components(light.ambient));
+        print_numbers(out, ", position", components(light.position));
+        print_numbers(out, ", direction", components(light.direction));
+        print_numbers(out, ", attenuation", components(light.attenuation));
+    }
+}
+
 void print_options(std::ostream& out, const peeling::RenderOptions& o) {
     const auto number = [](auto value) { return static_cast<int>(value); };
     out << "size " << o.width << 'x' << o.height << ", termination " << number(o.termination.rule) << " ratio "
@@ -64,6 +78,7 @@ void print_options(std::ostream& out, const peeling::RenderOptions& o) {
         const auto& p = r.clip_planes[static_cast<std::size_t>(i)];
         out << ", plane {" << p.a << ", " << p.b << ", " << p.c << ", " << p.d << '}';
     }
+    if (o.lights) print_lights(out, *o.lights, o.light_model);
     out << '\n';
 }
 

@@ -56,6 +56,25 @@ TEST_CASE("the plan names the material that requires MASK in opaque priming or w
     CHECK(row(everything, "opaque priming").at("simulated") == false);
 }
 
+TEST_CASE("the plan says how many lights there are, and whether passes add secondary colours") {
+    const Folder folder;
+    const auto with = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), "teapot");
+        return plans(folder, words)[0];
+    };
+    const auto at_eye = with({});
+    CHECK(row(at_eye, "lighting, at the vertices").at("why") == "lit materials: teapot, ground");
+    CHECK(row(at_eye, "colour sum").at("simulated") == false);
+    const auto lit = with({"--lights", "directional,0,0,-1/point,0,9,0"});
+    CHECK(row(lit, "lighting, at the vertices").at("why") == "2 lights on lit materials: teapot, ground");
+    CHECK(row(lit, "colour sum").at("simulated") == false);
+    const auto shiny = with({"--lights", "directional,0,0,-1", "--light-model", "specular=1:1:1,separate-specular"});
+    CHECK(row(shiny, "lighting, at the vertices").at("why") == "1 light on lit materials: teapot, ground");
+    CHECK(row(shiny, "colour sum").at("simulated") == true);
+    CHECK(row(shiny, "colour sum").at("passes") ==
+          row(shiny, "colour interpolation, perspective division").at("passes"));
+}
+
 TEST_CASE("the plan has the passes and all tiles of the statistics for every algorithm") {
     const Folder folder;
     const std::vector<std::string> scene{"volume-beam:slices=6", "--algorithm", "all", "--tile", "32"};
