@@ -32,6 +32,7 @@ void set_spot(LightRegisters& light, const EyeLight& from) noexcept {
     const float exponent = from.light.exponent;
     double edge = 1.0 - double{from.cosine};
     if (exponent > 0.0f) edge = std::min(edge, below_one(exponent, 0.0625f));
+    edge = std::max(edge, 0x1p-24);  // of a cone so narrow that its cosine is 1
     const double middle = double{power(static_cast<float>(1.0 - edge / 2.0), exponent)};
     for (std::size_t i = 0; i < 3; ++i) light.spot_direction[i] = static_cast<float>(-double{from.axis[i]} / edge);
     light.spot_direction[3] = static_cast<float>(1.0 - 1.0 / edge);

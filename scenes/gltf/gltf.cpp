@@ -181,12 +181,13 @@ class SceneBuilder {
 
     // The light of a node, if it has one.
     void add_light(const PlacedNode& placed) {
-        const auto light = light_of(document_.at("nodes", static_cast<std::size_t>(placed.node)), document_.root());
+        const auto light = light_of(document_.at("nodes", static_cast<std::size_t>(placed.node)));
         if (!light) return;
         if (scene_.list.lights.size() == pipeline::most_lights)
             return warnings_.add(location_of(placed).pointer,
                                  "more than 8 lights, which is what the fixed function has: it is off");
-        scene_.list.lights.push_back(to_light(*light, placed, location_of(placed), options_.color_space));
+        scene_.list.lights.push_back(
+            to_light(document_.root(), *light, placed, location_of(placed), options_.color_space));
     }
 
     const Document& document_;

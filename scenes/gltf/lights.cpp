@@ -9,6 +9,7 @@
 // Tests    tests/scenes/gltf/gltf_lights_test.cpp
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scenes/gltf/check.h"
 #include "scenes/gltf/material.h"
@@ -78,12 +79,11 @@ float exponent_of(double inner, double outer) {
     return static_cast<float>((low + high) / 2);
 }
 
-// What a float may hold; places beyond are infinite there, and refused with the list.
 Vec3 as_floats(const Vec3d& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 void set_cone(pipeline::Light& light, const JsonAt& spot) {
     const double inner = number_or(spot, "innerConeAngle", 0), outer = number_or(spot, "outerConeAngle", usual_outer);
-    light.cutoff = std::min(static_cast<float>(outer * 180 / pi), 90.0f);
+    light.cutoff = std::clamp(static_cast<float>(outer * 180 / pi), std::numeric_limits<float>::min(), 90.0f);
     light.exponent = exponent_of(cos(inner), std::max(cos(outer), 0.0));
 }
 
@@ -98,16 +98,15 @@ void check_lights(const JsonAt& root, Faults& faults) {
     });
 }
 
-std::optional<JsonAt> light_of(const JsonAt& node, const JsonAt& root) {
+std::optional<std::size_t> light_of(const JsonAt& node) {
     const auto its = extension_of(node);
-    if (!its) return std::nullopt;
-    const std::vector<JsonAt> lights = extension_of(root)->elements("lights");
-    return lights[its->member("light").index(lights.size())];
+    return its ? std::optional{its->member("light").json().get<std::size_t>()} : std::nullopt;
 }
 
-pipeline::Light to_light(const JsonAt& light, const PlacedNode& placed, const FileLocation& location,
+pipeline::Light to_light(const JsonAt& root, std::size_t number, const PlacedNode& placed, const FileLocation& location,
                          pipeline::ColorSpace space) {
     using pipeline::LightType;
+    const JsonAt light = extension_of(root)->elements("lights")[number];
     const std::string kind = light.member("type").string();
     pipeline::Light made{.type = kind == "directional" ? LightType::directional
                                  : kind == "point"     ? LightType::point
@@ -126,8 +125,12 @@ pipeline::Light to_light(const JsonAt& light, const PlacedNode& placed, const Fi
     if (largest > 0) made.direction = as_floats({-z.x / largest, -z.y / largest, -z.z / largest});
     made.position = as_floats(column(placed.world, 3));
     if (made.type == LightType::directional) return made;
+    for (const float coordinate : components(made.position))
+        if (!std::isfinite(coordinate))
+            location.fail("VALUE_NOT_IN_RANGE", "a light at a place that binary32 has", "a larger coordinate");
     made.attenuation = {0, 0, 1};
-    if (light.has("range")) made.range = static_cast<float>(light.member("range").number());
+    if (light.has("range"))
+        made.range = std::max(static_cast<float>(light.member("range").number()), std::numeric_limits<float>::min());
     if (made.type == LightType::spot) set_cone(made, light.member("spot"));
     return made;
 }

@@ -48,9 +48,10 @@ struct PlacedNode {
 // The rigid inverse of a camera node's world transform; InputError if its axes are degenerate.
 [[nodiscard]] pipeline::Matrix view_of(const pipeline::Matrix& world, const FileLocation& location);
 
-// The light of a node, if it has one (lights.cpp); the document has been checked.
-[[nodiscard]] std::optional<JsonAt> light_of(const JsonAt& node, const JsonAt& root);
-[[nodiscard]] pipeline::Light to_light(const JsonAt& light, const PlacedNode& placed, const FileLocation& location,
-                                       pipeline::ColorSpace space);
+// The number of a node's light, if it has one, and that light of the document `root` (lights.cpp), which has been
+// checked.
+[[nodiscard]] std::optional<std::size_t> light_of(const JsonAt& node);
+[[nodiscard]] pipeline::Light to_light(const JsonAt& root, std::size_t number, const PlacedNode& placed,
+                                       const FileLocation& location, pipeline::ColorSpace space);
 
 }  // namespace strata::scenes

@@ -1,8 +1,11 @@
 // tests/peeling/rendering.h - renders a test's scene in one call, and compares images with a model.
 #pragma once
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "peeling/render.h"
 #include "tests/support/fragment_scene.h"
@@ -46,6 +49,31 @@ inline constexpr Running all_ways_of_running[]{{pipeline::Execution::literal}, {
 
 [[nodiscard]] inline peeling::RenderResult render(const FragmentScene& scene, const Machine& machine) {
     return render(scene, machine, options_for(scene));
+}
+
+// True if the frame is drawn with the same colours in every execution, with the needed effects on one thread and with
+// all of them on two.
+[[nodiscard]] inline bool is_alike_in_every_way(const pipeline::DrawList& list, const pipeline::View& view,
+                                                const Machine& machine, const peeling::RenderOptions& asked) {
+    std::vector<std::uint32_t> first;
+    for (const Running& running : all_ways_of_running)
+        for (const pipeline::Effects effects : {pipeline::Effects::needed, pipeline::Effects::all}) {
+            peeling::RenderOptions options = asked;
+            running.apply(options);
+            options.effects = effects;
+            options.threads = effects == pipeline::Effects::all ? 2 : 1;
+            const peeling::RenderResult result = render(list, view, machine, options);
+            if (result.outcome != peeling::Outcome::done) return false;
+            if (first.empty()) first = {result.frame.color.codes.begin(), result.frame.color.codes.end()};
+            if (!std::ranges::equal(first, result.frame.color.codes)) return false;
+        }
+    return !first.empty();
+}
+
+// A channel of rgba8 or rgba32f as a number.
+[[nodiscard]] inline double value_in(const pipeline::Image& image, int x, int y, int c) {
+    const std::uint32_t code = image.codes[image.index(x, y, c)];
+    return image.format == pipeline::Format::rgba32f ? double{std::bit_cast<float>(code)} : code / 255.0;
 }
 
 [[nodiscard]] inline std::uint64_t diagnosed(const peeling::RenderResult& result, pipeline::Fault fault) {

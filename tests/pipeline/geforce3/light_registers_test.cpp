@@ -66,6 +66,7 @@ TEST_CASE("a spot is full on its axis, OpenGL's in the middle, and dark from its
         CHECK(falloff(light, 0.25) == 0);
     }
     CHECK(falloff(spot(20, 0), std::cos(19.9 * degree)) == Approx(1).epsilon(1e-5));
+    CHECK(falloff(spot(1e-30f, 0), 1) == 1);
     // 1/16 of the power 64 is at 16.8 degrees, inside the cone of 80.
     CHECK(falloff(spot(80, 64), std::cos(15 * degree)) > 0);
     CHECK(falloff(spot(80, 64), std::cos(17 * degree)) == 0);

@@ -149,6 +149,10 @@ TEST_CASE("lights that the extension does not allow are refused with their place
         at + "spot/outerConeAngle: expected an angle above 0 and of at most pi / 2, found 2");
     has(with({{"type", "spot"}, {"spot", {{"innerConeAngle", 1}}}}),
         at + "spot/innerConeAngle: expected an inner angle from 0 to below the outer one, found 1");
+    has(refusal_of(lit({{{"type", "point"}}}, {{"translation", {1e39, 0, 0}}})),
+        "/nodes/1: expected a light at a place that binary32 has, found a larger coordinate");
+    CHECK(with({{"type", "point"}, {"range", 1e-50}}).empty());
+    CHECK(with({{"type", "spot"}, {"spot", {{"outerConeAngle", 1e-50}}}}).empty());
     auto file = lit({{{"type", "point"}}});
     file.json["nodes"][1]["extensions"][extension]["light"] = 1;
     has(refusal_of(file), "/nodes/1/extensions/KHR_lights_punctual/light: expected");
