@@ -61,6 +61,13 @@ row bias.png "$work"/errors.{0,1,2,3}.png
 build/release/strata render wireframe "${view[@]:1}" --background 1,1,1 --algorithm unsorted,dual -o "$work/wireframe.png" >/dev/null
 row wireframe.png "$work/wireframe.unsorted.png" "$work/wireframe.dual.png"
 
+# The light at the eye, and two lights with highlights by OpenGL's formulas and by GeForce3's lighting unit (how-to.md).
+lights=(--lights directional,-1,-1,-0.5,color=1:0.9:0.6/point,0,3,2,color=0.2:0.4:1 --light-model specular=1:1:1,shininess=32,separate-specular)
+build/release/strata render "${view[@]}" --alpha 0.75 --background 1,1,1 -o "$work/lit.0.png" >/dev/null
+build/release/strata render "${view[@]}" --alpha 0.75 --background 1,1,1 "${lights[@]}" -o "$work/lit.1.png" >/dev/null
+build/release/strata render "${view[@]}" --alpha 0.75 --background 1,1,1 "${lights[@]}" --profile geforce3 --algorithm depth_units -o "$work/lit.2.png" >/dev/null
+row lights.png "$work"/lit.{0,1,2}.png
+
 # A decal by an offset of its own, and distant surfaces by three depth buffers (how-to.md).
 /usr/bin/python3 tools/docs/pictures/depths.py build/release/strata
 
