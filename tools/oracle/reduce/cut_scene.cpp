@@ -63,6 +63,7 @@ std::uint32_t kept(std::uint32_t old, const std::vector<T>& from, std::vector<T>
 DrawList cut(const DrawList& list, std::span<const TriangleName> triangles) {
     DrawList result;
     result.light = list.light;
+    result.lights = list.lights;
     std::map<std::uint32_t, std::uint32_t> materials, textures;
     for (std::size_t first = 0; first < triangles.size();) {
         const std::uint32_t number = triangles[first].instance;

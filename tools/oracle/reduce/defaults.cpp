@@ -30,6 +30,7 @@ bool any_of_all(std::vector<T>& values, Change change) {
 
 std::vector<Simplification> of_scene() {
     return {{"the light", [](Golden& g) { return becomes(g.scene.list.light, {}); }},
+            {"the file's lights", [](Golden& g) { return becomes(g.scene.list.lights, {}); }},
             {"textures",
              [](Golden& g) {
                  return any_of_all(g.scene.list.materials, [](Material& m) { return becomes(m.texture, -1); });

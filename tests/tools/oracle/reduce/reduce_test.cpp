@@ -269,3 +269,11 @@ TEST_CASE("three failures of a model of 200000 triangles are reduced to at most 
     for (const char* mistake : {"one_pass_too_few", "depth_16", "under_without_transmittance"})
         check_reduction(dragon, mistake);
 }
+
+TEST_CASE("a cut scene keeps the lights of its file") {
+    Golden golden = golden_of("showroom.dual");
+    golden.scene.list.lights = {{.direction = {0, -1, 0}}};
+    auto few = triangles_of(golden.scene.list);
+    few.resize(1);
+    CHECK(cut(golden.scene.list, few).lights == golden.scene.list.lights);
+}
