@@ -87,6 +87,10 @@ void check_state(const Manifest& manifest) {
         manifest.refuse("/state/algorithm", "none: the port has each algorithm's usual options", "some");
     if (state.contains("options") && state.at("options").contains("line_stipple"))
         manifest.refuse("/state/options/line_stipple", "none: the port has no line stipple", "one");
+    // Lit colours are those of the pack's vertices, which have one colour.
+    const std::string model = state.value(ordered_json::json_pointer("/options/light_model"), "");
+    if (model.find("separate-specular") != std::string::npos)
+        manifest.refuse("/state/options/light_model", "no separate-specular: the port has no secondary colours", model);
     const ordered_json& offset = manifest.at("/state/polygon_offset");
     if (offset.is_object() && offset.value("enabled", false))
         manifest.refuse("/state/polygon_offset", "none: the port has no polygon offset", "one");
