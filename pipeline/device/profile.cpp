@@ -148,8 +148,8 @@ DeviceProfile softpipe() {
     p.name = "softpipe";
     p.description = "no device: Mesa 22.3's softpipe, whose blends round when a cached tile is put back";
     p.raster.coverage = CoverageRule::float_spans;
-    p.raster.lines = LineRule::none;
-    p.raster.points = PointRule::none;
+    p.raster.lines = LineRule::pixel_steps;
+    p.raster.points = PointRule::two_triangles;
     p.raster.plane_rule = PlaneRule::least_corner;
     p.raster.perspective = PerspectiveDivide::quotient;
     p.raster.depth_rounding = DepthRounding::product_floor;

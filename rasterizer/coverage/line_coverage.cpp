@@ -7,6 +7,7 @@
 
 #include "rasterizer/coverage/diamond_exit.h"
 #include "rasterizer/coverage/line_axis.h"
+#include "rasterizer/coverage/pixel_steps.h"
 #include "rasterizer/coverage/sample_rectangle.h"
 #include "rasterizer/coverage/shifted_ends.h"
 
@@ -85,6 +86,7 @@ namespace {
 ShapeCoverage line_coverage(const WindowCorner& a, const WindowCorner& b, const RasterState& state,
                             const RasterRules& rules) noexcept {
     const int bits = rules.subpixel_bits;
+    if (rules.lines == LineRule::pixel_steps) return pixel_steps(a.unsnapped, b.unsnapped, bits);
     if (rules.lines == LineRule::shifted_ends) return shifted_ends(a.unsnapped, b.unsnapped, state.line_width_px, bits);
     if (state.sample && rules.lines == LineRule::diamond_exit)
         return sample_rectangle(a.p, b.p, state.line_width_px, bits);

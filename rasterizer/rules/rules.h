@@ -76,13 +76,15 @@ enum class OffsetRule : std::uint8_t { corners, fragments };
 
 // Which pixels a line covers. none: lines are refused. band: NV2A's, by the style of the state. diamond_exit: OpenGL's
 // and Direct3D's line of one pixel per step of its longer direction, and OpenGL's wide lines. shifted_ends: llvmpipe's
-// parallelogram (lines-and-points.md 2 to 4).
-enum class LineRule : std::uint8_t { none, band, diamond_exit, shifted_ends };
+// parallelogram. pixel_steps: softpipe's steps between the pixels of the ends, and two triangles for wide lines
+// (lines-and-points.md 2 to 4).
+enum class LineRule : std::uint8_t { none, band, diamond_exit, shifted_ends, pixel_steps };
 // Which pixels a point covers. none: points are refused. square: the centres within half its size, left and upper side
 // included. reciprocal: the same by NV2A's reciprocal, which includes the right and lower side unless the size is a
 // power of two. subpixel_square: llvmpipe's, whose size is rounded to subpixels and at least a pixel; left and lower
-// side included (lines-and-points.md 5).
-enum class PointRule : std::uint8_t { none, square, reciprocal, subpixel_square };
+// side included. two_triangles: softpipe's, moved by an eighth of a pixel to the right and upwards (lines-and-points.md
+// 5).
+enum class PointRule : std::uint8_t { none, square, reciprocal, subpixel_square, two_triangles };
 
 // How a fragment's depth is computed (depth.md 4): depth_paths.h, window_z.h, plane.h.
 enum class DepthPath : std::uint8_t {
@@ -155,8 +157,13 @@ struct RasterRules {
     const Shape shape = shape_of(primitive);
     if (shape == Shape::triangle) return true;
     if (is_of_polygon(primitive) && r.clip != ClipVolume::guard_band) return false;
-    return r.coverage == CoverageRule::snapped_edges && has_shape_planes(r) &&
-           (shape == Shape::line ? r.lines != LineRule::none : r.points != PointRule::none);
+    if (shape == Shape::line ? r.lines == LineRule::none : r.points == PointRule::none) return false;
+    const bool has_spans =
+        shape == Shape::line ? r.lines == LineRule::pixel_steps : r.points == PointRule::two_triangles;
+    if (has_spans)
+        return r.coverage == CoverageRule::float_spans && r.plane_rule == PlaneRule::least_corner &&
+               r.plane_origin == PlaneOrigin::unsnapped;
+    return r.coverage == CoverageRule::snapped_edges && has_shape_planes(r);
 }
 
 // True if the rules say how a stipple counts the fragments of a line. Outlines of polygons count around each polygon,

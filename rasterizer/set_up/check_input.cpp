@@ -6,6 +6,7 @@
 #include <span>
 
 #include "rasterizer/base/require.h"
+#include "rasterizer/coverage/pixel_steps.h"
 #include "rasterizer/coverage/sample_rectangle.h"
 
 namespace strata::rasterizer {
@@ -139,6 +140,8 @@ void check(const TriangleSoup& soup, const RasterState& state, const RasterRules
                 "line_style band, because the rules have no other");
         require(shape != Shape::line || !state.line_stipple || has_line_stipple(rules, soup.runs[i].primitive),
                 "no line_stipple, because the rules have none for these lines");
+        require(!state.polygon_stipple || !is_drawn_by_triangles(shape, state, rules),
+                "triangles with polygon_stipple, because the rules draw it as two of them");
         require(!state.sample || covers_samples(rules, soup.runs[i].primitive),
                 "triangles, because the frame has sample positions");
         require(!state.sample || !state.line_stipple || shape != Shape::line,

@@ -107,6 +107,7 @@ class TriangleSetup {
     [[nodiscard]] Fate add_shape(const SourceTriangle& source, SetupChunk& out) const;
     [[nodiscard]] Fate add_line(const SourceTriangle& source, bool front, SetupChunk& out) const;
     [[nodiscard]] Fate add_ends(const SourceTriangle& source, const Ends& ends, bool front, SetupChunk& out) const;
+    [[nodiscard]] Fate add_quad(const SourceTriangle& source, const Ends& ends, bool front, SetupChunk& out) const;
     [[nodiscard]] std::optional<bool> polygon_faces_front(const SourceTriangle& source) const;
     static void count(Fate fate, const SourceTriangle& triangle, SetupCounters& counters) noexcept;
     [[nodiscard]] bool is_front(std::int64_t area, bool mirrored) const noexcept;

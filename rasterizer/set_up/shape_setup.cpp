@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "rasterizer/coverage/line_coverage.h"
+#include "rasterizer/coverage/pixel_steps.h"
 #include "rasterizer/set_up/setup.h"
 
 namespace strata::rasterizer {
@@ -75,14 +76,17 @@ TriangleSetup::Fate TriangleSetup::add_line(const SourceTriangle& source, bool f
         marks |= project(cut.corner[i], cut.extra[i].data(),
                          cut.is_new[i] ? VertexOrigin::made_by_clip : VertexOrigin::given, corner[i]);
     const auto next = static_cast<std::uint32_t>(vertices_.size() + out.vertices.size());
-    const Fate fate = add_ends(source, {{next, next + 1}, {&corner[0], &corner[1]}, marks}, front, out);
-    out.counters.clipped += fate != Fate::outside;
-    if (fate != Fate::kept) return fate;
     for (std::size_t i = 0; i < 2; ++i) {
         out.vertices.push_back(cut.corner[i]);
         out.corners.push_back(corner[i]);
         out.extras.insert(out.extras.end(), cut.extra[i].data(), cut.extra[i].data() + extras_.stride);
     }
+    const Fate fate = add_ends(source, {{next, next + 1}, {&corner[0], &corner[1]}, marks}, front, out);
+    out.counters.clipped += fate != Fate::outside;
+    if (fate == Fate::kept) return fate;
+    out.vertices.resize(out.vertices.size() - 2);
+    out.corners.resize(out.corners.size() - 2);
+    out.extras.resize(out.extras.size() - 2 * extras_.stride);
     return fate;
 }
 
@@ -92,6 +96,7 @@ TriangleSetup::Fate TriangleSetup::add_ends(const SourceTriangle& source, const 
     if ((ends.marks & marks_window) != 0 || (ends.marks & (front ? marks_front : marks_back)) != 0)
         return Fate::non_finite;
     const Shape shape = shape_of(source.run->primitive);
+    if (is_drawn_by_triangles(shape, state_, rules_)) return add_quad(source, ends, front, out);
     const Rect all = shape == Shape::line ? line_coverage(*a, *b, state_, rules_).box : point_box(*b, state_, rules_);
     if (all.area() == 0) return Fate::degenerate;
     const Rect box = intersection(all, state_.viewport);
@@ -105,6 +110,48 @@ TriangleSetup::Fate TriangleSetup::add_ends(const SourceTriangle& source, const 
                              .special = TriangleRecord::special_of(shape)});
     if (state_.polygon_offset.enabled) out.offset_z.push_back({a->z, a->z, b->z});
     return Fate::kept;
+}
+
+// Two triangles of four new vertices, which are neither culled nor moved by polygon offset. Counted once: as kept if
+// any of them is.
+TriangleSetup::Fate TriangleSetup::add_quad(const SourceTriangle& source, const Ends& ends, bool front,
+                                            SetupChunk& out) const {
+    const bool is_point = shape_of(source.run->primitive) == Shape::point;
+    const auto& [a, b] = ends.corner;
+    const QuadCorners position = is_point ? point_corners(b->unsnapped, state_.point_size_px)
+                                          : wide_line_corners(a->unsnapped, b->unsnapped, state_.line_width_px);
+    std::array<WindowCorner, 4> corner;
+    for (std::size_t i = 0; i < corner.size(); ++i) {
+        corner[i] = *ends.corner[i / 2];
+        corner[i].unsnapped = position[i];
+        corner[i].p = window_.snapped({position[i][0], position[i][1], corner[i].z, corner[i].inverse_w});
+    }
+    const auto first = static_cast<std::uint32_t>(vertices_.size() + out.vertices.size());
+    TriangleRun run = *source.run;
+    run.double_sided = run.without_offset = true;
+    SourceTriangle side = source;
+    side.run = &run;
+    Fate fate = Fate::degenerate;
+    bool any_kept = false;
+    for (const auto& [i, k] : {std::array{2u, 3u}, std::array{3u, 1u}}) {
+        const Fate piece =
+            add_piece({{first, first + i, first + k}, {&corner[0], &corner[i], &corner[k]}, 0}, side, out);
+        if (piece == Fate::kept) out.triangles.back().front_facing = front;
+        any_kept |= piece == Fate::kept;
+        if (i == 2 || piece == Fate::kept) fate = piece;
+    }
+    if (!any_kept) return fate;
+    for (std::size_t i = 0; i < corner.size(); ++i) {
+        const std::size_t end = ends.vertex[i / 2], given = vertices_.size();
+        ClipVertex vertex = end < given ? vertices_[end] : out.vertices[end - given];
+        if (is_point && state_.point_sprites) vertex.texcoord = {i / 2 == 0 ? 0.0f : 1.0f, i % 2 == 0 ? 0.0f : 1.0f};
+        const float* const extras = end < given ? extras_of(end) : out.extras.data() + (end - given) * extras_.stride;
+        const std::vector<float> own(extras, extras + extras_.stride);
+        out.vertices.push_back(vertex);
+        out.corners.push_back(corner[i]);
+        out.extras.insert(out.extras.end(), own.begin(), own.end());
+    }
+    return fate;
 }
 
 }  // namespace strata::rasterizer

@@ -98,7 +98,7 @@ class FloatPlanes {
         if (sample) right_ = 0.5f + sample->right(), down_ = 0.5f + sample->down();
     }
 
-    // A line from corner 1 to corner 2: its values are constant across the longer axis.
+    // A line from corner 1 to corner 2: its values are constant across the longer axis, or across the line.
     [[nodiscard]] static constexpr FloatPlanes of_line(PlaneRule rule, const WindowPosition& a,
                                                        const WindowPosition& b) {
         FloatPlanes planes{rule, Shape::line};
@@ -106,13 +106,15 @@ class FloatPlanes {
         const float across = d.x * d.x, below = d.y * d.y;
         const float square = across + below;
         planes.reciprocal_ = 1.0f / square;
+        planes.x_ = a[0] - 0.5f;
+        planes.y_ = a[1] - 0.5f;
+        planes.first_ = d;
+        if (rule == PlaneRule::least_corner) return planes;
         const auto size = [](float v) { return v < 0.0f ? -v : v; };
         const bool is_x = size(d.x) >= size(d.y);
         const float slope = is_x ? d.y / d.x : d.x / d.y;
         const float squared = slope * slope, longer = 1.0f + squared;
         planes.first_ = is_x ? Difference{d.x * longer, 0.0f} : Difference{0.0f, d.y * longer};
-        planes.x_ = a[0] - 0.5f;
-        planes.y_ = a[1] - 0.5f;
         return planes;
     }
     // A point: the value of corner 2 everywhere.

@@ -36,7 +36,7 @@ class TileRasterizer::Pass {
         const bool by_spans = geometry_.rules.coverage == CoverageRule::float_spans;
         const auto draw_part = [&](auto group) {
             if (by_spans) {
-                for (const std::uint32_t t : group) draw_float_spans(t);
+                for (const std::uint32_t t : group) draw_by_spans(t);
             } else {
                 set_up_group(geometry_, rules_, small_, group, group_);
                 draw_group(group);
@@ -70,6 +70,13 @@ class TileRasterizer::Pass {
     void use_material(std::uint32_t material) {
         if (material != batch_.material) flush();
         batch_.material = material;
+    }
+
+    void draw_by_spans(std::uint32_t index) {
+        const TriangleRecord& record = geometry_.triangles[index];
+        if (record.shape() == Shape::triangle) return draw_float_spans(index);
+        use_material(record.material);
+        draw_large(index);
     }
 
     // Consecutive rows are emitted together. If the upper and the lower part of a triangle share a row, the rows of the

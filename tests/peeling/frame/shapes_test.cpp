@@ -83,8 +83,9 @@ TEST_CASE("a peel composites lines, points and triangles by depth") {
     DrawList opaque_alone = list;
     opaque_alone.instances.erase(opaque_alone.instances.begin(), opaque_alone.instances.begin() + 3);
     constexpr std::pair<const char*, const char*> shape_machines[]{
-        {"ideal", "dual"},      {"ideal", "front_to_back"},    {"ideal", "a_buffer"},    {"geforce8", "dual"},
-        {"direct3d11", "dual"}, {"geforce8", "front_to_back"}, {"ideal", "linked_list"}, {"geforce8", "depth_units"}};
+        {"ideal", "dual"},        {"ideal", "front_to_back"},  {"ideal", "a_buffer"},
+        {"geforce8", "dual"},     {"direct3d11", "dual"},      {"geforce8", "front_to_back"},
+        {"ideal", "linked_list"}, {"geforce8", "depth_units"}, {"softpipe", "dual"}};
     for (const auto& [profile, algorithm] : shape_machines) {
         INFO(profile << ' ' << algorithm);
         const RenderOptions options = mixed_options();
@@ -127,8 +128,11 @@ TEST_CASE("NV2A's peel keeps the order of lines and points, too") {
 
 TEST_CASE("lines and points have the same bits in every execution, with tiles of every size, on one thread or two") {
     const DrawList list = mixed_list();
-    constexpr std::pair<const char*, const char*> shape_machines[]{
-        {"geforce3", "depth_units"}, {"geforce8", "dual"}, {"ideal", "front_to_back"}, {"ideal", "linked_list"}};
+    constexpr std::pair<const char*, const char*> shape_machines[]{{"geforce3", "depth_units"},
+                                                                   {"geforce8", "dual"},
+                                                                   {"ideal", "front_to_back"},
+                                                                   {"ideal", "linked_list"},
+                                                                   {"softpipe", "front_to_back"}};
     for (const auto& [profile, algorithm] : shape_machines) {
         std::optional<Image> first;
         for (const Running& running : all_ways_of_running)
@@ -155,7 +159,7 @@ TEST_CASE("lines and points are refused by devices without a rule for them or fo
         return result.refusal ? result.refusal->feature : std::string{};
     };
     CHECK(refused("llvmpipe", 1) == "");
-    CHECK(refused("softpipe", 1) == "known rule for lines");
+    CHECK(refused("softpipe", 1) == "");
     CHECK(refused("swiftshader", 1) == "known rule for lines");
     CHECK(refused("geforce8", 4) == "");
     CHECK(refused("llvmpipe", 4) == "multisampling of lines and points");
