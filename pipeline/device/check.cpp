@@ -47,6 +47,7 @@ constexpr std::array feature_rules{
     FeatureRule{Feature::d24f, "24-bit float depth buffers", "", &DeviceProfile::has_d24f},
     FeatureRule{Feature::unordered_access, "buffers that a program writes and changes atomically",
                 "ARB_shader_storage_buffer_object", &DeviceProfile::has_unordered_access},
+    FeatureRule{Feature::logic_op, "logical operations on colours", "", &DeviceProfile::has_logic_op},
 };
 
 constexpr bool rules_follow_the_enum() {
@@ -149,6 +150,7 @@ std::optional<Refusal> check(const DeviceProfile& profile, const Blend& state) {
     const auto is_signed = [](const BlendTerm& term) {
         return term.equation == BlendEquation::signed_add || term.equation == BlendEquation::signed_reverse_subtract;
     };
+    if (state.logic_op) return check(profile, Feature::logic_op);  // which disables blending
     if (state.enabled && (is_signed(state.color) || is_signed(state.alpha)))
         if (std::optional<Refusal> refusal = check(profile, Feature::signed_blend)) return refusal;
     if (state.enabled && state.color != state.alpha) return check(profile, Feature::separate_alpha_blend);

@@ -40,6 +40,7 @@ enum class Feature : std::uint8_t {
     narrow_surfaces,
     d24f,
     unordered_access,
+    logic_op,
 };
 
 struct Refusal {

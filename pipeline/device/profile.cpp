@@ -167,6 +167,7 @@ DeviceProfile swiftshader() {
     DeviceProfile p = geforce8_dx101();
     p.name = "swiftshader";
     p.description = "no device: SwiftShader as headless Chromium 156 runs WebGL 2 on it";
+    p.has_logic_op = false;
     p.raster = {.subpixel_bits = 4,
                 .snap = Snap::nearest_even,
                 .guard_band_px = 524288,
@@ -203,6 +204,7 @@ DeviceProfile direct3d11() {
     p.has_d16 = true;
     p.has_unclamped_depth_clear = false;
     p.has_ordered_rmw = true;
+    p.has_logic_op = false;
     p.has_unordered_access = true;
     p.max_viewport_px = 16384;
     return p;

@@ -115,6 +115,8 @@ struct DeviceProfile {
     bool has_unordered_access = false;
     // Signed add and signed reverse subtract, on 8-bit targets (fragment-stages.md 8.3).
     bool has_signed_blend = false;
+    // Logical operations in place of blending (fragment-stages.md 8.6).
+    bool has_logic_op = true;
     SamplePositions sample_positions = SamplePositions::standard;
     ResolveRule resolve = ResolveRule::codes_half_up;
     ShareRounding alpha_to_coverage = ShareRounding::nearest;

@@ -331,6 +331,9 @@ constexpr std::array fields{
     boolean<&Profile::has_signed_blend>("has_signed_blend",
                                         {"[M] fragment-stages.md 8.3: 478 of 478 pictures",
                                          "[S] fragment-stages.md 8.3: no such equation", ours, opengl, webgl}),
+    boolean<&Profile::has_logic_op>(
+        "has_logic_op", {"[S] fragment-stages.md 8.6: OpenGL 1.1", "[S] fragment-stages.md 8.6: OpenGL 1.1", ours,
+                         opengl, "[S] WebGL 2 has none", "[S] fragment-stages.md 8.6: on integer targets alone"}),
     choice<&Profile::sample_positions>(
         "sample_positions",
         {"[M] fragment-stages.md 13.1: of two samples; four are assumed",

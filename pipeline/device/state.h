@@ -2,7 +2,9 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 
+#include "pipeline/formats/logic_op.h"
 #include "rasterizer/base/vector.h"
 
 namespace strata::pipeline {
@@ -86,13 +88,20 @@ struct BlendTerm {
     friend bool operator==(const BlendTerm&, const BlendTerm&) = default;
 };
 
-// The blending of one target. If disabled, the source is stored unchanged; the write mask still applies.
+// The blending of one target. If disabled, the source is stored unchanged; the write mask still applies. A logical
+// operation disables blending, and replaces it where codes are fixed-point and not sRGB; all targets of a pass have the
+// same.
 struct Blend {
     bool enabled = false;
     BlendTerm color, alpha;
     Rgba constant{0, 0, 0, 0};
     // Bit 0 enables r, 1 g, 2 b, 3 a.
     std::uint8_t write_mask = 0xf;
+    std::optional<LogicOp> logic_op{};
+    bool dither = false;  // dither.h
+    [[nodiscard]] constexpr bool blends() const noexcept { return enabled && !logic_op; }
+    // True if the result depends on the stored code.
+    [[nodiscard]] constexpr bool reads_target() const noexcept { return logic_op ? reads_stored(*logic_op) : enabled; }
     friend bool operator==(const Blend&, const Blend&) = default;
 };
 

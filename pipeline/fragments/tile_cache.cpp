@@ -137,7 +137,7 @@ bool TileCache::knows(const Blend& blending, Format format) noexcept {
         return term.equation == add || term.equation == subtract || term.equation == reverse_subtract;
     };
     const ChannelType type = info(format).type;
-    return blending.enabled && !is_packed(format) &&
+    return blending.blends() && !is_packed(format) &&
            (type == ChannelType::half || (type == ChannelType::unorm8 && !is_narrow(format))) &&
            (rounds(blending.color) || rounds(blending.alpha));
 }

@@ -85,6 +85,8 @@ void check_pass(const DeviceProfile& profile, const PassState& state, const std:
         refuse_if(profile, check(profile, targets[static_cast<std::size_t>(state.color[k].id)].format()));
         blends.push_back(state.blend[k]);
     }
+    require(std::ranges::all_of(blends, [&](const Blend& b) { return b.logic_op == blends.front().logic_op; }),
+            "targets of one pass have one logical operation");
     refuse_if(profile, check(profile, std::span<const Blend>{blends}));
     if (state.stencil.enabled) refuse_if(profile, check(profile, state.stencil));
     if (state.depth_unit_count > 0) refuse_if(profile, check(profile, Feature::sequential_depth_units));

@@ -38,7 +38,7 @@ bool has_tests_of_its_kind(const PassState& state, int samples) {
     switch (state.selection.keeps) {
         case KeptFragments::nearest:
             return is_plain && !state.ordered_rmw && state.depth == leaves_the_nearest &&
-                   std::ranges::none_of(state.blend, &Blend::enabled);
+                   std::ranges::none_of(state.blend, &Blend::reads_target);
         case KeptFragments::group:
         case KeptFragments::ends: return is_untested && !state.ordered_rmw;
         case KeptFragments::interval: return state.selection.outside == Outside::dies || is_untested;

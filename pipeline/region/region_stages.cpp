@@ -32,12 +32,6 @@ namespace strata::pipeline {
 
 namespace {
 
-// Truncates the blender's result to the bits that a narrow surface stores (formats.md 4.1).
-void narrow(Format format, ColorCodes& codes, int count) noexcept {
-    for (int c = 0; c < 4; ++c)
-        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
-            codes[static_cast<std::size_t>(c)][i] = narrowed(format, c, codes[static_cast<std::size_t>(c)][i]);
-}
 // The source of a blend on a 16-bit surface: colours truncated to its bits, alpha unchanged (narrow.h).
 const ColorLanes& blended_source(Format format, const ColorLanes& source, ColorLanes& cut, int count) noexcept {
     if (info(format).bytes_per_pixel != 2 || !is_narrow(format)) return source;
@@ -110,7 +104,7 @@ void Stages::require_elements(const PassState& state) const {
 }
 
 void Stages::count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels) {
-    shared_.count(of_color(pixel_bytes(target), pixels, blending.enabled));
+    shared_.count(of_color(pixel_bytes(target), pixels, blending.reads_target()));
 }
 
 // Window positions fit in 16 bits: a frame has at most 16,384 pixels per side.
@@ -369,9 +363,9 @@ void Stages::write_colors(const PassState& state, const FragmentBatch& batch, co
             cache_->blend(k, {batch, out.color[k], alive, fetched, sample});
             continue;
         }
-        const bool is_extra = shared_.runs_extra(Effect::blending, blending.enabled);
-        const bool keeps_source =
-            is_extra && !blending.enabled && format.type == ChannelType::unorm8;  // ONE and ZERO have the same result
+        const bool is_extra = shared_.runs_extra(Effect::blending, blending.blends());
+        const bool keeps_source = is_extra && !blending.enabled && !blending.logic_op && !blending.dither &&
+                                  format.type == ChannelType::unorm8;  // ONE and ZERO have the same result
         if (is_extra && !keeps_source) extra_blend(blending, batch, out.color[k], target, sample);
         const bool adds_halves = shared_.frame.effects == Effects::needed && !is_packed(target.format()) &&
                                  format.type == ChannelType::half &&
@@ -380,12 +374,19 @@ void Stages::write_colors(const PassState& state, const FragmentBatch& batch, co
         if (adds_halves && target.add(batch.pixel, alive, batch.count, sample, out.color[k],
                                       shared_.profile().denormals == DenormalRule::flush))
             continue;
-        const Blend used = keeps_source ? neutral(blending) : blending;
-        if (used.enabled || blending.write_mask != 0xf || shared_.frame.effects == Effects::all)
+        Blend used = keeps_source ? neutral(blending) : blending;
+        used.enabled = used.blends();
+        if (used.enabled || used.logic_op || blending.write_mask != 0xf || shared_.frame.effects == Effects::all)
             target.gather(batch.pixel, batch.count, sample, shared_.scratch.codes);
-        const ColorLanes& source = blended_source(target.format(), out.color[k], shared_.scratch.texel, batch.count);
+        const bool is_dithered = used.dither && !used.enabled;  // from all bits of the source
+        const ColorLanes& source =
+            is_dithered ? out.color[k]
+                        : blended_source(target.format(), out.color[k], shared_.scratch.texel, batch.count);
+        if (used.logic_op) shared_.scratch.extra_codes = shared_.scratch.codes;
         blend_into(target.format(), used, shared_.profile(), source, shared_.scratch.codes, batch.count);
-        if (is_narrow(target.format())) narrow(target.format(), shared_.scratch.codes, batch.count);
+        if (used.logic_op || used.dither || is_narrow(target.format()))
+            finish_codes(target.format(), used, source, {batch.x, batch.y, shared_.scratch.extra_codes},
+                         shared_.scratch.codes, batch.count);
         target.scatter(batch.pixel, alive, batch.count, sample, blending.write_mask, shared_.scratch.codes);
     }
 }

@@ -11,7 +11,8 @@
 // Cost     Terms that papers use run in one loop (blend_kernels.h), compiled once per instruction set; the others first
 //          fill two arrays of factors.
 // Tests    tests/pipeline/stages/blend_unorm8_test.cpp, tests/pipeline/stages/blend_float_test.cpp,
-//          tests/pipeline/stages/simd_stages_test.cpp, tests/pipeline/stages/blend_packed_test.cpp
+//          tests/pipeline/stages/simd_stages_test.cpp, tests/pipeline/stages/blend_packed_test.cpp,
+//          tests/pipeline/stages/logic_op_test.cpp, tests/pipeline/stages/dither_test.cpp
 #pragma once
 #include <array>
 #include <cstdint>
@@ -34,5 +35,16 @@ void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, i
 void blend_into(Format format, const Blend& state, const DeviceProfile& profile,
                 const std::array<rasterizer::Lanes<float>, 4>& src,
                 std::array<rasterizer::Lanes<std::uint32_t>, 4>& codes, int count) noexcept;
+
+// The window position of each lane, and the codes that the target had.
+struct DitherLanes {
+    const rasterizer::Lanes<std::uint16_t>&x, &y;
+    const std::array<rasterizer::Lanes<std::uint32_t>, 4>& stored;
+};
+
+// What follows blending on fixed-point targets: dithering, the bits of narrow surfaces, the logical operation. `codes`
+// are those of blend_into.
+void finish_codes(Format format, const Blend& state, const std::array<rasterizer::Lanes<float>, 4>& src,
+                  const DitherLanes& at, std::array<rasterizer::Lanes<std::uint32_t>, 4>& codes, int count) noexcept;
 
 }  // namespace strata::pipeline

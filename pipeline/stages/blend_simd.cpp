@@ -42,6 +42,7 @@ using HalfWords = scalar::PlainHalves;
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "pipeline/formats/dither.h"
 #include "pipeline/formats/packed.h"
 #include "rasterizer/base/simd_dispatch.h"
 
@@ -119,6 +120,28 @@ void blend_into(Format format, const Blend& state, const DeviceProfile& profile,
     if (blends_in_16_bits(format, profile)) return blend_unorm16(state, src, codes, count);
     if (is_packed(format)) return blend_packed(format, state, profile, src, codes, count);
     blend(state, info(format).type, profile, info(format).channels, src, codes, count);
+}
+
+void finish_codes(Format format, const Blend& state, const scalar::ColorLanes& src, const DitherLanes& at,
+                  scalar::ColorCodes& codes, int count) noexcept {
+    const ChannelType type = info(format).type;
+    const bool is_fixed = type == ChannelType::unorm8 || type == ChannelType::unorm10;
+    if (!is_fixed || format == Format::srgb8_alpha8) return;
+    const int greatest = type == ChannelType::unorm10 ? 1023 : 255;
+    for (int channel = 0; channel < info(format).channels; ++channel) {
+        const auto c = static_cast<std::size_t>(channel);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+            std::uint32_t& code = codes[c][i];
+            const std::uint32_t pattern = state.dither ? dither_pattern(at.x[i], at.y[i]) : 0;
+            if (state.dither && !state.blends() && !is_narrow(format))
+                code = format == Format::rgb10_a2 && channel == 3 ? dithered(src[c][i], 3, pattern) * 341
+                                                                  : dithered(src[c][i], greatest, pattern);
+            if (is_narrow(format)) code = dithered_narrow(format, channel, code, pattern);
+            if (state.logic_op)
+                code = narrowed(format, channel,
+                                combined(*state.logic_op, code, at.stored[c][i], static_cast<std::uint32_t>(greatest)));
+        }
+    }
 }
 
 }  // namespace strata::pipeline

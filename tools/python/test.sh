@@ -53,6 +53,7 @@ step "the examples, from the shared libraries"
 cmake -S "$source/tools/library/examples" -B "$folder/examples" -G Ninja -DCMAKE_PREFIX_PATH="$folder/installed" >>"$folder/build.log"
 cmake --build "$folder/examples" >>"$folder/build.log"
 "$folder/examples/own_algorithm"
+"$folder/examples/rubber_band"
 status=0
 "$folder/examples/reference_picture" || status=$?
 [ $status = 1 ] || { echo "expected that the example ends with 1, found $status" >&2; exit 1; }

@@ -40,6 +40,7 @@ constexpr FeatureOfDevices feature_table[] = {
     {Feature::d24f, "24-bit float depth buffers", "", "3"},
     {Feature::unordered_access, "buffers that a program writes and changes atomically",
      "ARB_shader_storage_buffer_object", "ilsd"},
+    {Feature::logic_op, "logical operations on colours", "", "381ilsp"},
 };
 
 constexpr std::array<std::string_view, 9> device_names{"geforce3", "geforce8",    "geforce8_dx101",

@@ -156,6 +156,7 @@ constexpr FieldOfDevices device_table[] = {
     {"has_ordered_rmw", {"false", "false", "false", "true", "false", "false", "false", "false", "true"}},
     {"has_unordered_access", {"false", "false", "false", "true", "true", "true", "false", "false", "true"}},
     {"has_signed_blend", {"true", "false", "false", "false", "false", "false", "false", "false", "false"}},
+    {"has_logic_op", {"true", "true", "true", "true", "true", "true", "true", "false", "false"}},
     {"sample_positions",
      {"nv20", "standard", "standard", "standard", "standard", "standard", "standard", "standard", "standard"}},
     {"resolve",

@@ -57,6 +57,12 @@ TEST_CASE("a pass with targets of the wrong kind throws an error that names the 
     CHECK(broken(f.region, state) == "pass state: texture units sample depth targets");
     state.textures[0] = depth;
     CHECK(broken(f.region, state) == "drawn");
+    state = {};
+    state.color = {color, f.region.make(Format::rgba8)};
+    state.blend[0].logic_op = state.blend[1].logic_op = state.blend[2].logic_op = LogicOp::invert;
+    CHECK(broken(f.region, state) == "drawn");
+    state.blend[1].logic_op.reset();
+    CHECK(broken(f.region, state) == "pass state: targets of one pass have one logical operation");
 }
 
 TEST_CASE("a region's image is ordered by pixel then sample then channel for any format and number of samples") {

@@ -124,6 +124,7 @@ TEST_CASE("missing later fields have the values of the behaviour before them sin
                                            "depth_order",
                                            "fog",
                                            "has_d24f",
+                                           "has_logic_op",
                                            "has_unordered_access",
                                            "lighting",
                                            "min_samples",

@@ -52,6 +52,8 @@ expect("${out}" "^[0-9a-f]+\n.*1 of 3072 pixels differ.*first at 5,40")
 set(WANTED 0)
 run(${PREFIX}/examples/own_algorithm)
 expect("${out}" "0\\.625")
+run(${PREFIX}/examples/rubber_band)
+expect("${out}" "after two: 0")
 
 file(WRITE ${PREFIX}/unknown/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)\nproject(unknown LANGUAGES CXX)\nfind_package(strata COMPONENTS oracel REQUIRED)\n")
 set(WANTED 1)

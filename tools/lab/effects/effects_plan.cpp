@@ -75,7 +75,7 @@ struct PassEffect {
 // True if an existing colour target is blended.
 bool is_blending(const PassRecord& p) {
     for (std::size_t k = 0; k < p.state.color.size(); ++k)
-        if (p.state.color[k].exists() && p.state.blend[k].enabled) return true;
+        if (p.state.color[k].exists() && p.state.blend[k].reads_target()) return true;
     return false;
 }
 

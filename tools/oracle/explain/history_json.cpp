@@ -36,11 +36,12 @@ ordered_json json_of_term(const pipeline::BlendTerm& t) {
 }
 
 ordered_json json_of_blend(const pipeline::Blend& b) {
-    if (!b.enabled) return {{"enabled", false}, {"write_mask", b.write_mask}};
-    return {{"enabled", true},
-            {"color", json_of_term(b.color)},
-            {"alpha", json_of_term(b.alpha)},
-            {"write_mask", b.write_mask}};
+    ordered_json json{{"enabled", b.blends()}};
+    if (b.blends()) json.update({{"color", json_of_term(b.color)}, {"alpha", json_of_term(b.alpha)}});
+    json["write_mask"] = b.write_mask;
+    if (b.logic_op) json["logic_op"] = enum_name(*b.logic_op);
+    if (b.dither) json["dither"] = true;
+    return json;
 }
 
 ordered_json json_of_face(const pipeline::StencilFace& f) {

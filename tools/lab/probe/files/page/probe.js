@@ -213,7 +213,7 @@ function featuresOf(device) {
     has_d16: true, has_d24: true, has_d32f: true, has_d16f: false, has_d24f: false, has_narrow_surfaces: false,
     has_float_targets: device.canFloat && device.canBlendFloat, has_fragment_programs: true, has_separate_alpha_blend: true,
     has_independent_blend: gl.getExtension('OES_draw_buffers_indexed') !== null, has_two_sided_stencil: true,
-    has_depth_clamp: gl.getExtension('EXT_depth_clamp') !== null, has_depth_replace: false, has_signed_blend: false,
+    has_depth_clamp: gl.getExtension('EXT_depth_clamp') !== null, has_depth_replace: false, has_signed_blend: false, has_logic_op: false,
     max_render_targets: gl.getParameter(gl.MAX_DRAW_BUFFERS), max_texture_units: gl.getParameter(gl.MAX_TEXTURE_IMAGE_UNITS),
     max_viewport_px: gl.getParameter(gl.MAX_VIEWPORT_DIMS)[0], max_samples: gl.getParameter(gl.MAX_SAMPLES),
   };
