@@ -9,7 +9,7 @@
 namespace strata::rasterizer {
 namespace {
 
-constexpr float greatest_line_px = 255.0f;
+constexpr float greatest_px = 255.0f;
 // Added to the right and upwards, so that centres on a side belong to one triangle.
 constexpr float bias = 0.125f;
 
@@ -44,7 +44,7 @@ ShapeCoverage pixel_steps(const WindowPosition& a, const WindowPosition& b, int 
 }
 
 QuadCorners wide_line_corners(const WindowPosition& a, const WindowPosition& b, float width_px) noexcept {
-    const float half = 0.5f * std::min(width_px, greatest_line_px);
+    const float half = 0.5f * std::min(width_px, greatest_px);
     const bool is_x = std::abs(a[0] - b[0]) > std::abs(a[1] - b[1]);
     const std::size_t along = is_x ? 0 : 1, across = 1 - along;
     const float to_side = is_x ? -bias : bias, back = a[along] < b[along] ? -0.5f : 0.5f;
@@ -58,7 +58,7 @@ QuadCorners wide_line_corners(const WindowPosition& a, const WindowPosition& b, 
 }
 
 QuadCorners point_corners(const WindowPosition& p, float size_px) noexcept {
-    const float half = 0.5f * size_px;
+    const float half = 0.5f * std::min(size_px, greatest_px);
     const float left = -half + bias, right = half + bias, upper = -half - bias, lower = half - bias;
     return {{{p[0] + left, p[1] + upper},
              {p[0] + left, p[1] + lower},

@@ -81,6 +81,36 @@ template <class Covers>
     return pixels;
 }
 
+// Two ends with a depth, w and colours of their own.
+[[nodiscard]] inline std::array<ClipVertex, 2> random_ends(Random& random) {
+    std::array<ClipVertex, 2> ends;
+    for (ClipVertex& v : ends) {
+        v.x = random_float(random, 0, line_window);
+        v.y = random_float(random, 0, line_window);
+        v.z = random_float(random, 0.2f, 0.8f);
+        v.w = random_float(random, 0.5f, 4.0f);
+        for (float& c : v.front) c = random_float(random, 0, 1);
+    }
+    return ends;
+}
+
+// How many of a fragment's depth and colours differ from those of a rule: value(ends, value of each end, x, y) is a
+// linear one, divide(over, under) a colour over w and 1 / w.
+template <class Value, class Divide>
+[[nodiscard]] int wrong_values(const Geometry& g, const std::array<ClipVertex, 2>& ends, const Fragment& f,
+                               const Value& value, const Divide& divide) {
+    const auto& [a, b] = ends;
+    const float qa = g.corners[0].inverse_w, qb = g.corners[1].inverse_w;
+    const Rounded under{value(a, b, qa, qb, f.x, f.y)};
+    int wrong = f.shader_z != value(a, b, a.z, b.z, f.x, f.y) ? 1 : 0;
+    for (std::size_t c = 0; c < 4; ++c) {
+        const Rounded over{
+            value(a, b, (Rounded{a.front[c]} * Rounded{qa}).v, (Rounded{b.front[c]} * Rounded{qb}).v, f.x, f.y)};
+        wrong += f.color[c] != divide(over, under).v ? 1 : 0;
+    }
+    return wrong;
+}
+
 // NV2A's rules of lines and points, with its four subpixel bits.
 inline const RasterRules chip_lines{.subpixel_bits = 4,
                                     .snap = Snap::toward_zero,

@@ -140,29 +140,30 @@ TEST_CASE("softpipe's points are squares, an eighth of a pixel to the right and 
     CHECK(wrong == 0);
 }
 
+TEST_CASE("softpipe's points and lines are at most 255 pixels wide") {
+    // Their middle is 128 pixels to the right of column 32: the left side is at 32 1/2, and an eighth.
+    const ClipVertex p = vertex_of(160, 20, 1), upper = vertex_of(160, 0, 1), lower = vertex_of(160, 48, 1);
+    const auto columns = [](const std::vector<Fragment>& fragments) {
+        std::set<int> all;
+        for (const Fragment& f : fragments) all.insert(f.x);
+        return all;
+    };
+    const std::vector<Fragment> point = softpipe_fragments({p}, Primitive::points, state_of_width(300)),
+                                line = softpipe_fragments({upper, lower}, Primitive::lines, state_of_width(300));
+    CHECK(*columns(point).begin() == 33);
+    CHECK(*columns(line).begin() == 33);
+    CHECK(*columns(softpipe_fragments({p}, Primitive::points, state_of_width(253))).begin() == 34);
+}
+
 TEST_CASE("depths and colours of softpipe's thin lines change along the line by the steps of their rule") {
     Random random{4};
     int wrong = 0, seen = 0;
     for (int i = 0; i < 200; ++i) {
-        ClipVertex a, b;
-        for (ClipVertex* v : {&a, &b}) {
-            v->x = random_float(random, 0, 48);
-            v->y = random_float(random, 0, 48);
-            v->z = random_float(random, 0.2f, 0.8f);
-            v->w = random_float(random, 0.5f, 4.0f);
-            for (float& c : v->front) c = random_float(random, 0, 1);
-        }
-        const Geometry g = shapes({a, b}, Primitive::lines, line_state(), softpipe_shapes);
+        const std::array<ClipVertex, 2> ends = random_ends(random);
+        const Geometry g = shapes({ends[0], ends[1]}, Primitive::lines, line_state(), softpipe_shapes);
         for (const Fragment& f : draw(g).fragments) {
-            const float qa = g.corners[0].inverse_w, qb = g.corners[1].inverse_w;
-            const Rounded under{stepped_line(a, b, qa, qb, f.x, f.y)};
             ++seen;
-            wrong += f.shader_z != stepped_line(a, b, a.z, b.z, f.x, f.y) ? 1 : 0;
-            for (std::size_t c = 0; c < 4; ++c) {
-                const Rounded over{stepped_line(a, b, (Rounded{a.front[c]} * Rounded{qa}).v,
-                                                (Rounded{b.front[c]} * Rounded{qb}).v, f.x, f.y)};
-                wrong += f.color[c] != (over / under).v ? 1 : 0;
-            }
+            wrong += wrong_values(g, ends, f, stepped_line, [](Rounded over, Rounded under) { return over / under; });
         }
     }
     CHECK(wrong == 0);

@@ -147,26 +147,12 @@ TEST_CASE("depths and colours of llvmpipe's lines change along the longer axis b
     state.line_width_px = 3;
     int wrong = 0, seen = 0;
     for (int i = 0; i < 200; ++i) {
-        ClipVertex a, b;
-        for (ClipVertex* v : {&a, &b}) {
-            v->x = random_float(random, 0, 48);
-            v->y = random_float(random, 0, 48);
-            v->z = random_float(random, 0.2f, 0.8f);
-            v->w = random_float(random, 0.5f, 4.0f);
-            for (float& c : v->front) c = random_float(random, 0, 1);
-        }
-        const Geometry g = shapes({a, b}, Primitive::lines, state, llvmpipe_shapes);
+        const std::array<ClipVertex, 2> ends = random_ends(random);
+        const Geometry g = shapes({ends[0], ends[1]}, Primitive::lines, state, llvmpipe_shapes);
         for (const Fragment& f : draw(g).fragments) {
-            const float qa = g.corners[0].inverse_w, qb = g.corners[1].inverse_w;
-            const Rounded under{line_value(a, b, qa, qb, f.x, f.y)};
-            const auto over = [&](std::size_t c) {
-                return line_value(a, b, (Rounded{a.front[c]} * Rounded{qa}).v, (Rounded{b.front[c]} * Rounded{qb}).v,
-                                  f.x, f.y);
-            };
             ++seen;
-            wrong += f.shader_z != line_value(a, b, a.z, b.z, f.x, f.y) ? 1 : 0;
-            for (std::size_t c = 0; c < 4; ++c)
-                wrong += f.color[c] != (Rounded{over(c)} * (Rounded{1.0f} / under)).v ? 1 : 0;
+            wrong += wrong_values(g, ends, f, line_value,
+                                  [](Rounded over, Rounded under) { return over * (Rounded{1.0f} / under); });
         }
     }
     CHECK(wrong == 0);
