@@ -199,5 +199,5 @@ TEST_CASE("softpipe's lines and points need its spans and planes") {
     CHECK_FALSE(draws(other, Primitive::lines));
     RasterState state = state_of_width(3);
     state.polygon_stipple = PolygonStipple{};
-    CHECK_THROWS_AS(shapes({vertex_of(9, 9, 1)}, Primitive::points, state, softpipe_shapes), InputError);
+    CHECK_THROWS_AS(shapes({vertex_of(9, 9, 1)}, Primitive::points, state, softpipe_shapes), strata::InputError);
 }
