@@ -70,7 +70,8 @@ struct Peel {
 class PeelRun {
   public:
     PeelRun(const PixelPlaces& places, const Peel& peel, std::size_t step)
-        : places_{places}, peel_{peel}, step_{peel.place ? 1 : step}, shown_{step} {
+        : places_{places}, peel_{peel}, shown_{step} {
+        find_needed();
         const std::size_t count = places.lists().pixels.size();
         depths_.assign(static_cast<std::size_t>(peel.ago) + 1, std::vector<double>(count, start()));
         found_.resize(count);
@@ -81,7 +82,7 @@ class PeelRun {
         for (std::size_t pass = 0; pass < peel_.passes; ++pass) {
             std::vector<double>& written = depths_[pass % depths_.size()];
             const std::vector<double>& read = depths_[(pass + 1) % depths_.size()];
-            for (std::size_t i = 0; i < given.pixels.size(); i += step_) written[i] = find(i, read);
+            for (const std::size_t i : needed_) written[i] = find(i, read);
         }
         Lists made = empty_like(given);
         for (std::size_t i = 0; i < given.pixels.size(); i += shown_) {
@@ -96,6 +97,23 @@ class PeelRun {
     }
 
   private:
+    // Those that are shown, and those whose depths they read, pass by pass.
+    void find_needed() {
+        const std::vector<ListPixel>& pixels = places_.lists().pixels;
+        std::vector<char> is_needed(pixels.size(), 0);
+        for (std::size_t i = 0; i < pixels.size(); i += shown_) {
+            std::size_t at = i;
+            is_needed[at] = 1;
+            for (std::size_t pass = 0; peel_.place && shown_ > 1 && pass < peel_.passes; ++pass) {
+                places_.read(*peel_.place, pixels[at], taken_);
+                if (taken_.empty()) break;
+                at = taken_[0];
+                is_needed[at] = 1;
+            }
+        }
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            if (is_needed[i] != 0) needed_.push_back(i);
+    }
     [[nodiscard]] double start() const { return peel_.is_from_back ? infinity : -infinity; }
 
     // Equal codes are one depth, or are a hair apart.
@@ -140,7 +158,8 @@ class PeelRun {
 
     const PixelPlaces& places_;
     const Peel& peel_;
-    std::size_t step_, shown_;
+    std::size_t shown_;
+    std::vector<std::size_t> needed_{};
     std::vector<std::vector<double>> depths_{};  // of the last passes
     std::vector<std::vector<std::size_t>> found_{};
     std::vector<std::size_t> taken_{};
