@@ -1,9 +1,8 @@
 // pipeline/lighting/light.h - the lights of a scene, the lighting model and what all its surfaces share, as plain
 // values.
 //
-// Rule     OpenGL's fixed function: up to eight lights, each of an ambient, a diffuse and a specular colour. A
-// surface's
-//          own colour is its ambient and its diffuse one. vertex_light.h computes colours.
+// Rule     OpenGL's fixed function: up to eight lights, each of an ambient, a diffuse and a specular colour. The own
+//          colour of a surface is its ambient and its diffuse one. vertex_light.h computes colours.
 // Source   GL 2.1 2.14.1; pipeline/reference/lighting.md.
 // Tests    tests/pipeline/lighting/vertex_light_test.cpp
 #pragma once

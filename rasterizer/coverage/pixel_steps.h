@@ -1,8 +1,7 @@
 // rasterizer/coverage/pixel_steps.h - the pixels of softpipe's lines and points: steps from the pixel of one end to
 // that of the other, or the corners of two triangles.
 //
-// Rule     A thin line steps along its longer axis from the pixel of its start up to but excluding that of its end,
-// with
+// Rule     A thin line steps along its longer axis from the pixel of its start to the one before that of its end, with
 //          the nearest pixel across; a half goes on in the line's direction. A line whose width is at least 1.5, and
 //          every point, is drawn as the triangles 0 2 3 and 0 3 1 of four corners, by float_spans.h.
 // Source   rasterizer/reference/lines-and-points.md 4.3 and 5.
