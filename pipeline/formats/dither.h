@@ -1,7 +1,6 @@
 // pipeline/formats/dither.h - ordered dithering of colours before they are stored in fixed-point channels.
 //
-// Rule     The 4 x 4 pattern p = 0 .. 15 of a pixel's window position in memory. A colour that is not blended becomes
-// the
+// Rule     The 4 x 4 pattern p = 0 .. 15 of a pixel's window position in memory. What is not blended becomes the
 //          code floor(v N + (2 p + 1) / 32) of its clamped value v; N is the greatest code. A narrow surface keeps the
 //          upper bits of min(k + floor(p u / 16), 255), with k the blender's code and u its codes for one step of the
 //          channel.
