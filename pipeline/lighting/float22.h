@@ -54,9 +54,13 @@ inline constexpr float largest = 0x1.fff8p127f, infinity = std::numeric_limits<f
     return cut(double{a} * double{b});
 }
 
-// The sum of terms that are finite, each cut to `below` bits below the last of the largest one's 14.
+// The sum of terms, each cut to `below` bits below the last of the largest one's 14.
 template <std::size_t n>
 [[nodiscard]] constexpr float cut_sum(const std::array<double, n>& terms, int below) noexcept {
+    for (const double each : terms)
+        if (each != each) return not_a_number;
+    for (const double each : terms)
+        if (!(each - each == 0.0)) return infinity;
     int largest_exponent = -1023;
     for (const double each : terms) largest_exponent = std::max(largest_exponent, rasterizer::exponent_of(each));
     if (largest_exponent == -1023) return 0.0f;
@@ -69,13 +73,8 @@ template <std::size_t n>
 template <std::size_t n>
 [[nodiscard]] constexpr float sum(const std::array<float, n>& terms, int below = extra) noexcept {
     std::array<double, n> exact{};
-    bool is_infinite = false;
-    for (std::size_t i = 0; i < n; ++i) {
-        if (is_nan(terms[i])) return not_a_number;
-        is_infinite |= !is_finite(terms[i]);
-        exact[i] = double{terms[i]};
-    }
-    return is_infinite ? infinity : cut_sum(exact, below);
+    for (std::size_t i = 0; i < n; ++i) exact[i] = double{terms[i]};
+    return cut_sum(exact, below);
 }
 [[nodiscard]] constexpr float add(float a, float b) noexcept { return sum<2>({a, b}); }
 // The adder of scalars, which keeps no bits below.

@@ -109,7 +109,7 @@ TEST_CASE("the rows of the table make the complete profile") {
         CHECK(copy == original);
     }
     CHECK(profile_fields().size() ==
-          84);  // 28 rules of rasterization, 14 of its hypotheses, 42 fields of DeviceProfile
+          85);  // 28 rules of rasterization, 14 of its hypotheses, 43 fields of DeviceProfile
 }
 
 TEST_CASE("a description names the source of each value and a changed number is attributed to the user") {

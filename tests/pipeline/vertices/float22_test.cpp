@@ -124,6 +124,9 @@ TEST_CASE("infinity times zero is zero, times anything else +infinity, and NaN w
     CHECK(f22::is_nan(f22::mul(0.0f, nan)));
     CHECK(f22::add(-inf, 1.0f) == inf);
     CHECK(f22::is_nan(f22::sum<3>({inf, 1.0f, nan})));
+    // Products that enter a sum whole, as those of highlights do.
+    CHECK(f22::is_nan(f22::cut_sum<2>({double{inf}, double{nan}}, 2)));
+    CHECK(f22::cut_sum<2>({-double{inf}, 1.0}, 1) == inf);
     CHECK(f22::mul(f22::largest, -2.0f) == -f22::largest);
 }
 
