@@ -144,7 +144,8 @@ struct SceneVariant {
     std::optional<pipeline::PolygonMode> polygon_mode{};
     std::optional<float> line_width_px{}, point_size_px{};
     std::optional<rasterizer::DepthPath> depth_path{};
-    bool has_stipple = true;  // --line-stipple, if it is given
+    std::string_view without{};  // an option that is given: "--line-stipple"
+    bool is_unlit = false;       // --lights none
 };
 
 bool is_drawn_with(const pipeline::DrawList& list, std::initializer_list<pipeline::Primitive> any) {
@@ -170,7 +171,10 @@ std::vector<SceneVariant> with_other_shapes(const peeling::FrameRequest& input) 
         for (const float px : sizes)
             if (px != raster.point_size_px)
                 all.push_back({.words = fmt::format("--point-size {}", px), .point_size_px = px});
-    if (raster.line_stipple) all.push_back({.has_stipple = false});
+    if (raster.line_stipple) all.push_back({.without = "--line-stipple"});
+    if (input.options.lights) all.push_back({.without = "--lights"});
+    if (!input.options.lights && !input.list.lights.empty())
+        all.push_back({.words = "--lights none", .is_unlit = true});
     for (const auto path : enum_values<rasterizer::DepthPath>)
         if (path != input.options.depth_path.value_or(input.profile.raster.depth_path))
             all.push_back({.words = fmt::format("--depth-path {}", enum_name(path)), .depth_path = path});
@@ -254,7 +258,9 @@ bool is_right_so(const peeling::FrameRequest& input, const SceneVariant& way, co
     so.options.alpha = way.alpha;
     if (way.line_width_px) so.options.raster.line_width_px = *way.line_width_px;
     if (way.point_size_px) so.options.raster.point_size_px = *way.point_size_px;
-    if (!way.has_stipple) so.options.raster.line_stipple.reset();
+    if (way.without == "--line-stipple") so.options.raster.line_stipple.reset();
+    if (way.without == "--lights") so.options.lights.reset();
+    if (way.is_unlit) so.options.lights.emplace();
     if (way.depth_path) so.options.depth_path = way.depth_path;
     if (way.background)
         for (std::size_t c = 0; c < 3; ++c) so.options.background[c] = static_cast<float>((*way.background)[c]);
@@ -319,9 +325,9 @@ Agreeing agreeing(const Expected& right, const Colors& picture, const Color& bac
 // Of a variant with which the picture is right.
 std::string sentence_of(const SceneVariant& way, const peeling::FrameRequest& input) {
     const std::string where = moved(way);
-    const bool has_no_alpha = input.options.alpha && !way.alpha;
-    if (has_no_alpha || !way.has_stipple)
-        return fmt::format("without {}{} the picture is right", has_no_alpha ? "--alpha" : "--line-stipple",
+    const std::string_view without = input.options.alpha && !way.alpha ? "--alpha" : way.without;
+    if (!without.empty())
+        return fmt::format("without {}{} the picture is right", without,
                            way.words.empty() ? "" : " and with " + way.words);
     if (where.empty()) return fmt::format("looks forgotten: {}; with it the picture is right", way.words);
     if (way.words.empty()) return where + "; apart from that the picture is right";

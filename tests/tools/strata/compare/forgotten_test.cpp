@@ -62,6 +62,20 @@ TEST_CASE("another width or size of lines and points, another mode of polygons, 
     }
 }
 
+TEST_CASE("options of lines and lights that the picture lacks are named") {
+    const Folder folder;
+    for (const auto& [scene, option, name] :
+         {std::tuple{"wireframe:tessellation=3", "--line-stipple 1,0x5555", "--line-stipple"},
+          {"teapot:tessellation=4", "--lights directional,-1,-1,-0.5", "--lights"}}) {
+        REQUIRE(shell(folder, fmt::format("strata render {} --size 40x30 -q -o port.png", scene)).status == 0);
+        const CommandResult found =
+            shell(folder, fmt::format("strata compare {} --size 40x30 port.png {}", scene, option));
+        INFO(scene << option << ": " << found.out << found.err);
+        CHECK(found.status == 1);
+        CHECK(second_line(found) == fmt::format("  without {} the picture is right", name));
+    }
+}
+
 TEST_CASE("a forgotten --alpha is named by its number by compare and diagnose, and one too much", "[long]") {
     const Folder folder;
     for (const Forgotten& option : {
