@@ -46,7 +46,8 @@ ACCEPTED = {
     ("*", "--compare-epsilon", "-0"): "zero",
     ("*", "--overestimation", "-0"): "zero",
     ("*", "--moment-bias", "-0"): "zero",
-    ("*", "--weight", "-1"): "a formula, whose negative value is the weight 0",
+    **{("*", "--weight", number): "a formula of a number alone, with spaces; a negative one is the weight 0"
+       for number in ("-1", "-0", " 1", "1 ", "4294967297", "9223372036854775808", "18446744073709551616", "-9223372036854775809")},
     ("bench", "--warm-up", "-0"): "zero",
 }
 # Messages may use these names instead.
