@@ -67,7 +67,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
         self.send_header("Content-Length", str(len(body)))
         self.send_header("Cache-Control", caching)
         self.end_headers()
-        self.wfile.write(body)
+        with contextlib.suppress(BrokenPipeError):  # the browser has ended before it read the answer
+            self.wfile.write(body)
 
     def do_GET(self):
         path = urllib.parse.urlsplit(self.path).path
