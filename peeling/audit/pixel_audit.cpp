@@ -126,6 +126,7 @@ void PixelAudit::compare(std::span<const KeyedFragment> fragments, const Audited
     double worst = 0;
     const std::size_t channels = pixel.background[3] == 1.0f ? 3 : 4;
     for (std::size_t c = 0; c < channels; ++c) {
+        if (pixel.shown[c] == truth[c]) continue;
         const double off = std::fabs(pixel.shown[c] - truth[c]) * 255.0;
         worst = std::isnan(off) ? std::numeric_limits<double>::infinity() : std::max(worst, off);
     }

@@ -76,6 +76,29 @@ TEST_CASE("options of lines and lights that the picture lacks are named") {
     }
 }
 
+TEST_CASE("a picture without linear light is told as that, and nothing of its background") {
+    const Folder folder;
+    const std::string view = "random:triangles=12 --size 40x30 --background 0.2,0.4,0.1";
+    REQUIRE(shell(folder, "strata render " + view + " -q -o port.png").status == 0);
+    const CommandResult found = shell(folder, "strata compare " + view + " port.png --color-space linear");
+    INFO(found.out);
+    CHECK(found.status == 1);
+    CHECK(second_line(found) == "  without --color-space linear the picture is right");
+    CHECK(found.out.find("--background") == std::string::npos);
+}
+
+TEST_CASE("a picture of infinite colours is infinitely far from the right one") {
+    const Folder folder;
+    const CommandResult drawn =
+        shell(folder,
+              "strata render planes:count=2 --size 8x6 --profile ideal --algorithm weighted_blended --weight "
+              "1/0 -o port.exr");
+    INFO(drawn.out);
+    CHECK(drawn.status == 0);
+    CHECK(drawn.out.find(" inf ") != std::string::npos);
+    CHECK(drawn.out.find("times white") == std::string::npos);
+}
+
 TEST_CASE("a forgotten --alpha is named by its number by compare and diagnose, and one too much", "[long]") {
     const Folder folder;
     for (const Forgotten& option : {
