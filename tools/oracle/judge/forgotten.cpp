@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -142,10 +143,8 @@ struct SceneVariant {
     int samples = 1;
     double right = 0, up = 0;  // moved by pixels
     std::optional<pipeline::PolygonMode> polygon_mode{};
-    std::optional<float> line_width_px{}, point_size_px{};
-    std::optional<rasterizer::DepthPath> depth_path{};
-    std::string_view without{};  // an option that is given: "--line-stipple"
-    bool is_unlit = false;       // --lights none
+    std::string_view without{};                             // an option that is given and left out: "--line-stipple"
+    std::function<void(peeling::RenderOptions&)> change{};  // of other options
 };
 
 bool is_drawn_with(const pipeline::DrawList& list, std::initializer_list<pipeline::Primitive> any) {
@@ -155,6 +154,7 @@ bool is_drawn_with(const pipeline::DrawList& list, std::initializer_list<pipelin
 
 // Other shapes of primitives, and other depths.
 std::vector<SceneVariant> with_other_shapes(const peeling::FrameRequest& input) {
+    using peeling::RenderOptions;
     using pipeline::Primitive;
     std::vector<SceneVariant> all;
     const auto& raster = input.options.raster;
@@ -166,18 +166,23 @@ std::vector<SceneVariant> with_other_shapes(const peeling::FrameRequest& input) 
     if (is_drawn_with(input.list, {Primitive::lines, Primitive::line_strips, Primitive::polygon_lines}))
         for (const float px : sizes)
             if (px != raster.line_width_px)
-                all.push_back({.words = fmt::format("--line-width {}", px), .line_width_px = px});
+                all.push_back({.words = fmt::format("--line-width {}", px),
+                               .change = [px](RenderOptions& o) { o.raster.line_width_px = px; }});
     if (is_drawn_with(input.list, {Primitive::points, Primitive::polygon_points}))
         for (const float px : sizes)
             if (px != raster.point_size_px)
-                all.push_back({.words = fmt::format("--point-size {}", px), .point_size_px = px});
-    if (raster.line_stipple) all.push_back({.without = "--line-stipple"});
-    if (input.options.lights) all.push_back({.without = "--lights"});
-    if (!input.options.lights && !input.list.lights.empty())
-        all.push_back({.words = "--lights none", .is_unlit = true});
+                all.push_back({.words = fmt::format("--point-size {}", px),
+                               .change = [px](RenderOptions& o) { o.raster.point_size_px = px; }});
+    if (raster.line_stipple)
+        all.push_back({.without = "--line-stipple", .change = [](RenderOptions& o) { o.raster.line_stipple.reset(); }});
+    if (input.options.lights)
+        all.push_back({.without = "--lights", .change = [](RenderOptions& o) { o.lights.reset(); }});
+    else if (!input.list.lights.empty())
+        all.push_back({.words = "--lights none", .change = [](RenderOptions& o) { o.lights.emplace(); }});
     for (const auto path : enum_values<rasterizer::DepthPath>)
         if (path != input.options.depth_path.value_or(input.profile.raster.depth_path))
-            all.push_back({.words = fmt::format("--depth-path {}", enum_name(path)), .depth_path = path});
+            all.push_back({.words = fmt::format("--depth-path {}", enum_name(path)),
+                           .change = [path](RenderOptions& o) { o.depth_path = path; }});
     for (SceneVariant& way : all) way.alpha = input.options.alpha;
     return all;
 }
@@ -256,12 +261,7 @@ bool is_right_so(const peeling::FrameRequest& input, const SceneVariant& way, co
     so.options.sampling.samples = way.samples;
     if (way.samples == 1) so.options = options_of_one_sample(input);
     so.options.alpha = way.alpha;
-    if (way.line_width_px) so.options.raster.line_width_px = *way.line_width_px;
-    if (way.point_size_px) so.options.raster.point_size_px = *way.point_size_px;
-    if (way.without == "--line-stipple") so.options.raster.line_stipple.reset();
-    if (way.without == "--lights") so.options.lights.reset();
-    if (way.is_unlit) so.options.lights.emplace();
-    if (way.depth_path) so.options.depth_path = way.depth_path;
+    if (way.change) way.change(so.options);
     if (way.background)
         for (std::size_t c = 0; c < 3; ++c) so.options.background[c] = static_cast<float>((*way.background)[c]);
     if (is_drawn(so)) return true;
